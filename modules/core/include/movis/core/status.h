@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "movis/core/pose.h"
+
+namespace movis {
+
+// A geometry that cannot be solved is a status, never a NaN and never an exception.
+
+// What became of the measurement of a point. The words are those of the estimates' CSV.
+enum class PointStatus : std::uint8_t {
+  ok,
+  not_seen,        // no camera saw it
+  one_camera,      // one bearing gives a direction, no distance
+  parallel_rays,   // the rays do not intersect within the range that is measured
+  behind_camera,   // the lines intersect, but behind a camera: the bearings are not of one point
+};
+
+// What became of a fix of the robot's pose.
+enum class FixStatus : std::uint8_t {
+  ok,
+  no_goal,             // neither goal was seen
+  one_goal,            // one goal gives no pose
+  no_distance,         // the goals were seen, but their landmarks could not be triangulated
+  coinciding_circles,  // (18) is 0/0: the robot stands on the circle through all four posts
+  negative_radicand,   // (17): the two circles do not meet
+  outside_field,       // the solution lies far outside the field: it is not believed
+};
+
+const char* word(PointStatus status);
+const char* word(FixStatus status);
+
+// A measured point. With a status other than ok, point and covariance mean nothing.
+struct PointEstimate {
+  PointStatus status = PointStatus::not_seen;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       // metres
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m²
+};
+
+// The robot's pose, of one instant. With a status other than ok, pose and covariance mean nothing.
+struct Fix {
+  FixStatus status = FixStatus::no_goal;
+  Pose2 world_from_robot;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of (x, y, beta): m², m·rad, rad²
+};
+
+}  // namespace movis

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "movis/core/bearing.h"
+#include "movis/core/field.h"
+#include "movis/core/status.h"
+#include "movis/grab/image_source.h"
+#include "movis/localization/localizer.h"
+#include "movis/omni/rig.h"
+#include "movis/scan/scanner.h"
+#include "movis/triangulation/goal_points.h"
+#include "movis/triangulation/pairs.h"
+
+// The one data path:  images → scan → bearings → triangulation → points in the robot frame → localization → fix.
+namespace movis::pipeline {
+
+struct Options {
+  scan::ScanOptions scan;
+  triangulation::PairsOptions triangulation;
+};
+
+// Reads options.yaml strictly: the maps `scan` and `triangulation`, each optional; what is left out keeps its default.
+Options read_options(const std::filesystem::path& file);
+
+// What one instant tells. The vectors are reused from tick to tick.
+struct Estimate {
+  std::int64_t index = 0;
+  double time_s = 0.0;
+  std::vector<Bearing> bearings;
+  PointEstimate ball_in_robot;
+  triangulation::GoalLandmarks goals;  // robot frame
+  Fix fix;
+  double tick_us = 0.0;  // from the first pixel to the fix
+};
+
+// Everything that step() needs, made once. Changing the localizer is changing one function pointer.
+struct Pipeline {
+  Pipeline(omni::Rig rig, Field field, const scan::Colours& colours, const Options& options,
+           localization::Localizer localizer);
+
+  omni::Rig rig;
+  Field field;
+  Options options;
+  localization::Localizer localizer;
+  std::vector<scan::Scanner> scanners;  // one a camera
+  Estimate estimate;                    // of the last step
+};
+
+// One tick. Allocates nothing after the first. The result is pipeline.estimate.
+const Estimate& step(Pipeline& pipeline, const grab::FrameSet& images);
+
+}  // namespace movis::pipeline

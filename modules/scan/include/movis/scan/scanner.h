@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "movis/core/bearing.h"
+#include "movis/core/image_view.h"
+#include "movis/core/yaml.h"
+#include "movis/omni/rig.h"
+#include "movis/scan/classify.h"
+#include "movis/scan/colours.h"
+#include "movis/scan/histogram.h"
+#include "movis/scan/polar_map.h"
+#include "movis/scan/refine.h"
+
+namespace movis::scan {
+
+struct ScanOptions {
+  int bins = 720;                    // of the histogram over azimuth
+  double min_elevation_deg = -75.0;  // below it a camera sees only its own robot
+  double max_elevation_deg = 45.0;
+  double min_bin_pixels = 2.0;       // the least a bin must hold
+  double threshold_sigmas = 4.0;     // of the adaptive threshold
+  int min_object_pixels = 6;
+  double ball_gap_deg = 1.5;         // bridged within one ball
+  double goal_gap_deg = 12.0;        // bridged within one goal: another sensor unit may stand before it
+  RefineOptions refine;
+};
+
+ScanOptions read_scan_options(const YamlMap& map);
+
+// The scan of one camera (§2.2 and §2.3): colour classes in memory order with a precomputed azimuth bin for every
+// pixel, histograms over azimuth, adaptive threshold, detection of ball and goals, bearings finer than a bin.
+// Allocates nothing after construction.
+class Scanner {
+ public:
+  Scanner(const omni::Rig& rig, int camera, const Colours& colours, const ScanOptions& options);
+
+  // Appends the bearings of what this camera sees, at most one for each class. Throws an Error where the image has
+  // another size or format than the rig says.
+  void scan(const ImageView& image, double time_s, std::vector<Bearing>& bearings);
+
+  // Of the last scan.
+  const Histogram& histogram(ObjectClass object) const;
+  const PolarMap& polar_map() const { return map_; }
+
+ private:
+  void check(const ImageView& image) const;
+  void fill_histograms();
+  const Segment* find_object(ObjectClass object);
+  void flag(Bearing& bearing) const;
+
+  const omni::Camera camera_;
+  const int camera_index_;
+  const ScanOptions options_;
+  const PolarMap map_;
+  const Classifier classifier_;
+  std::vector<HiddenSector> sensors_;  // azimuths that other sensor units stand in
+  std::vector<Hit> hits_;
+  std::vector<Histogram> histograms_;  // by object class
+  std::vector<Segment> segments_;
+  std::vector<std::uint8_t> selected_;  // by bin: does it belong to the object at hand?
+  RefineScratch scratch_;
+};
+
+}  // namespace movis::scan

@@ -1,0 +1,44 @@
+#include "movis/core/output_file.h"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+
+#include "support/temporary_folder.h"
+
+namespace movis {
+namespace {
+
+using test::expect_error;
+using test::TemporaryFolder;
+
+std::size_t entries(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(OutputFile, AppearsOnlyWhenComplete) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "out.csv";
+  {
+    OutputFile output(file);
+    output.stream() << "half";
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  EXPECT_EQ(entries(folder.path()), 0U);
+  {
+    OutputFile output(file);
+    output.stream() << "whole";
+    output.commit();
+  }
+  EXPECT_EQ(entries(folder.path()), 1U);
+  EXPECT_EQ(std::filesystem::file_size(file), 5U);
+}
+
+TEST(OutputFile, RefusesAPlaceThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  expect_error([&] { OutputFile output(folder.path() / "absent" / "out.csv"); }, {"absent", "does not exist"});
+  expect_error([&] { OutputFile output(folder.path()); }, {"is a folder"});
+}
+
+}  // namespace
+}  // namespace movis
