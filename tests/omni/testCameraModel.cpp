@@ -74,7 +74,7 @@ TEST_P(EveryModel, UnprojectThenProjectOverTheWholeImage) {
 
 TEST_P(EveryModel, ProjectThenUnprojectOverTheSphere) {
   int visible = 0;
-  for (double elevation = -85.0; elevation <= 60.0; elevation += 2.5) {
+  for (double elevation = -84.0; elevation <= 60.0; elevation += 2.5) {
     for (double azimuth = -180.0; azimuth < 180.0; azimuth += 7.5) {
       const double e = radians(elevation);
       const double a = radians(azimuth);

@@ -19,6 +19,7 @@ const char* word(PointStatus status) {
 const char* word(FixStatus status) {
   switch (status) {
     case FixStatus::ok: return "ok";
+    case FixStatus::no_field: return "no_field";
     case FixStatus::no_goal: return "no_goal";
     case FixStatus::one_goal: return "one_goal";
     case FixStatus::no_distance: return "no_distance";

@@ -21,6 +21,7 @@ enum class PointStatus : std::uint8_t {
 // What became of a fix of the robot's pose.
 enum class FixStatus : std::uint8_t {
   ok,
+  no_field,            // there is no field file: no pose was sought
   no_goal,             // neither goal was seen
   one_goal,            // one goal gives no pose
   no_distance,         // the goals were seen, but their landmarks could not be triangulated
@@ -41,7 +42,7 @@ struct PointEstimate {
 
 // The robot's pose, of one instant. With a status other than ok, pose and covariance mean nothing.
 struct Fix {
-  FixStatus status = FixStatus::no_goal;
+  FixStatus status = FixStatus::no_field;
   Pose2 world_from_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of (x, y, beta): m², m·rad, rad²
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "movis/core/bearing.h"
@@ -38,11 +39,11 @@ struct Estimate {
 
 // Everything that step() needs, made once. Changing the localizer is changing one function pointer.
 struct Pipeline {
-  Pipeline(omni::Rig rig, Field field, const scan::Colours& colours, const Options& options,
+  Pipeline(omni::Rig rig, std::optional<Field> field, const scan::Colours& colours, const Options& options,
            localization::Localizer localizer);
 
   omni::Rig rig;
-  Field field;
+  std::optional<Field> field;  // without one no pose is sought
   Options options;
   localization::Localizer localizer;
   std::vector<scan::Scanner> scanners;  // one a camera

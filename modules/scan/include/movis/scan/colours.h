@@ -15,7 +15,7 @@ namespace movis::scan {
 struct ColourClass {
   ObjectClass object = ObjectClass::ball;
   double hue_from = 0.0;  // radians, in [0, 2π)
-  double hue_width = 0.0;  // radians, counter-clockwise from hue_from, below π
+  double hue_width = 0.0;  // radians, counter-clockwise from hue_from: below π, or 2π for every hue
   double chroma_min = 0.0, chroma_max = 1.0;
   double brightness_min = 0.0, brightness_max = 1.0;
 };

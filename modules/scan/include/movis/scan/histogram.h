@@ -12,9 +12,16 @@ struct Histogram {
   double threshold = 0.0;  // pixels a bin; adaptive, of the last scan
 };
 
-// The threshold that separates objects from scattered wrongly coloured pixels: mean + `sigmas` standard deviations of
-// the bins that lie below it themselves (found by iteration from the top), at least `minimum`.
-double adaptive_threshold(const std::vector<std::uint32_t>& counts, double minimum, double sigmas);
+struct ThresholdOptions {
+  double minimum = 2.0;         // pixels a bin
+  double sigmas = 4.0;          // above scattered wrong pixels
+  double peak_fraction = 0.15;  // of the fullest bin
+};
+
+// The adaptive threshold of §2.3, in place of compressing and enlarging the image: what is scattered over all azimuths
+// is noise, with the median m of the bins as its level and √m as its spread (Poisson); an object stands out from it
+// and is not a small part of the fullest bin:  max(minimum, m + sigmas √m, peak_fraction · peak).
+double adaptive_threshold(const std::vector<std::uint32_t>& counts, const ThresholdOptions& options);
 
 // A run of bins at or above the threshold, [first, first + length) modulo the number of bins.
 struct Segment {

@@ -19,11 +19,11 @@ struct ScanOptions {
   int bins = 720;                    // of the histogram over azimuth
   double min_elevation_deg = -75.0;  // below it a camera sees only its own robot
   double max_elevation_deg = 45.0;
-  double min_bin_pixels = 2.0;       // the least a bin must hold
-  double threshold_sigmas = 4.0;     // of the adaptive threshold
   int min_object_pixels = 6;
   double ball_gap_deg = 1.5;         // bridged within one ball
   double goal_gap_deg = 12.0;        // bridged within one goal: another sensor unit may stand before it
+  double sensor_radius = 0.03;       // of another sensor unit, metres: azimuths that it may hide
+  ThresholdOptions threshold;
   RefineOptions refine;
 };
 
@@ -47,15 +47,19 @@ class Scanner {
  private:
   void check(const ImageView& image) const;
   void fill_histograms();
-  const Segment* find_object(ObjectClass object);
-  void flag(Bearing& bearing) const;
+  bool find_object(ObjectClass object, Bearing& bearing, const ImageView& image);
+  void flag_sensors(Bearing& bearing) const;
 
   const omni::Camera camera_;
   const int camera_index_;
   const ScanOptions options_;
   const PolarMap map_;
-  const Classifier classifier_;
-  std::vector<HiddenSector> sensors_;  // azimuths that other sensor units stand in
+  const std::vector<IntegerClass> classes_;
+  struct Sector {
+    double azimuth = 0.0;
+    double half_width = 0.0;
+  };
+  std::vector<Sector> sensors_;  // azimuths in which other sensor units stand
   std::vector<Hit> hits_;
   std::vector<Histogram> histograms_;  // by object class
   std::vector<Segment> segments_;

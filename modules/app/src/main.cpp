@@ -1,0 +1,55 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "movis/localization/localizer.h"
+#include "track_command.h"
+
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongArguments = 2;
+
+std::vector<std::string> localizer_names() {
+  std::vector<std::string> names;
+  for (const auto name : movis::localization::localizer_names()) names.emplace_back(name);
+  return names;
+}
+
+void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
+  CLI::App* track = program.add_subcommand("track", "Measure ball and pose in every set of a data set");
+  track->add_option("--data", arguments.data, "The data set: a folder with rig.yaml, frames.csv and images")->required();
+  track->add_option("--out", arguments.out, "The estimates, a CSV file")->required();
+  track->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
+  track->add_option("--field", arguments.field, "Another field than the data set's field.yaml");
+  track->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
+  track->add_option("--options", arguments.options, "Options of the stages: YAML with the maps scan, triangulation");
+  track->add_option("--triangulation", arguments.triangulation, "How bearings become points")
+      ->check(CLI::IsMember({"pairs"}))
+      ->capture_default_str();
+  track->add_option("--localizer", arguments.localizer, "How goals become a pose")
+      ->check(CLI::IsMember(localizer_names()))
+      ->capture_default_str();
+  track->callback([&arguments] { movis::app::track(arguments); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("MOVIS: omnidirectional vision and visual servoing of mobile robots");
+  program.set_version_flag("--version", "movis " MOVIS_VERSION);
+  program.require_subcommand(1);
+  movis::app::TrackArguments track_arguments;
+  add_track(program, track_arguments);
+  try {
+    program.parse(argc, argv);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kDone : kWrongArguments;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "movis: %s\n", error.what());
+    return kFailed;
+  }
+}

@@ -1,0 +1,82 @@
+#include "track_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "estimates_file.h"
+#include "evaluation.h"
+#include "movis/core/error.h"
+#include "movis/core/paths.h"
+#include "movis/grab/dataset_source.h"
+#include "movis/grab/truth.h"
+#include "movis/localization/localizer.h"
+#include "movis/pipeline/pipeline.h"
+#include "progress.h"
+
+namespace movis::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Dataset& dataset) {
+  std::optional<Field> field;
+  if (arguments.field) {
+    field = read_field(*arguments.field);
+  } else if (dataset.field_file) {
+    field = read_field(*dataset.field_file);
+  }
+  const scan::Colours colours =
+      scan::read_colours(arguments.colours ? *arguments.colours : data_file("colours/default.yaml"));
+  const pipeline::Options options = arguments.options ? pipeline::read_options(*arguments.options) : pipeline::Options{};
+  return {dataset.rig, field, colours, options, localization::find_localizer(arguments.localizer)};
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// How often each status came, most frequent words first to read: "ok 26, one_goal 1".
+std::string count_statuses(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [status, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", status, count);
+  return text;
+}
+
+}  // namespace
+
+void track(const TrackArguments& arguments) {
+  grab::DatasetSource source(grab::read_dataset(arguments.data, arguments.rig));
+  const std::size_t sets = source.dataset().frames.size();
+  pipeline::Pipeline pipeline = make_pipeline(arguments, source.dataset());
+  std::map<std::int64_t, grab::Truth> truth;
+  if (const fs::path file = arguments.data / "truth.csv"; fs::exists(file)) truth = grab::read_truth(file);
+
+  EstimatesFile estimates(arguments.out);
+  Evaluation evaluation;
+  std::map<std::string, int> ball_statuses, pose_statuses;
+  std::vector<double> ticks_us;
+  Progress progress("track", sets);
+  source.open();
+  for (grab::FrameSet images; source.acquire(images); progress.advance()) {
+    const pipeline::Estimate& estimate = step(pipeline, images);
+    estimates.add(estimate);
+    ++ball_statuses[word(estimate.ball_in_robot.status)];
+    ++pose_statuses[word(estimate.fix.status)];
+    ticks_us.push_back(estimate.tick_us);
+    if (const auto found = truth.find(estimate.index); found != truth.end()) evaluation.add(estimate, found->second);
+  }
+  estimates.commit();
+  progress.finish();
+
+  fmt::print("{} sets of {} images: median tick {:.0f} µs\n  ball  {}\n  pose  {}\n", sets, pipeline.rig.cameras.size(),
+             median(ticks_us), count_statuses(ball_statuses), count_statuses(pose_statuses));
+  if (!truth.empty()) fmt::print("{}", evaluation.table());
+  fmt::print("estimates: {}\n", arguments.out.string());
+}
+
+}  // namespace movis::app

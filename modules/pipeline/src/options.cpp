@@ -1,0 +1,14 @@
+#include "movis/pipeline/pipeline.h"
+
+namespace movis::pipeline {
+
+Options read_options(const std::filesystem::path& file) {
+  const YamlMap map = YamlMap::read(file);
+  map.allow({"scan", "triangulation"});
+  Options options;
+  if (map.has("scan")) options.scan = scan::read_scan_options(map.map("scan"));
+  if (map.has("triangulation")) options.triangulation = triangulation::read_pairs_options(map.map("triangulation"));
+  return options;
+}
+
+}  // namespace movis::pipeline

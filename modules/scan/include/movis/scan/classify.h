@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "movis/core/image_view.h"
+#include "movis/scan/colours.h"
+#include "movis/scan/polar_map.h"
+
+namespace movis::scan {
+
+// A pixel that belongs to a colour class.
+struct Hit {
+  std::uint16_t u = 0;
+  std::uint16_t v = 0;
+  ObjectClass object = ObjectClass::ball;
+};
+
+// A colour class as inequalities in 8-bit integers. With X = R − G and Y = B − G the hue sector's borders are
+//   from_x X + from_y Y ≥ 0   and   to_x X + to_y Y ≥ 0
+// Coefficients are rounded to 1/74, the finest for which the sums fit in 16 bits: hue borders are kept to 0.4°.
+struct IntegerClass {
+  std::int16_t from_x = 0, from_y = 0, to_x = 0, to_y = 0;
+  std::uint8_t chroma_min = 0, chroma_max = 255;
+  std::uint8_t brightness_min = 0, brightness_max = 255;
+  ObjectClass object = ObjectClass::ball;
+};
+
+IntegerClass to_integers(const ColourClass& colour);
+
+inline bool belongs(const IntegerClass& colour, std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+  const int x = r - g;
+  const int y = b - g;
+  const std::uint8_t brightness = std::max({r, g, b});
+  const int chroma = brightness - std::min({r, g, b});
+  return colour.from_x * x + colour.from_y * y >= 0 && colour.to_x * x + colour.to_y * y >= 0 &&
+         chroma >= colour.chroma_min && chroma <= colour.chroma_max && brightness >= colour.brightness_min &&
+         brightness <= colour.brightness_max;
+}
+
+// Appends every scanned pixel that belongs to a class, in memory order; of overlapping classes the first counts.
+// Vectorized for whatever the processor has. `hits` must have room for every scanned pixel. BGR8, RGB8 and RGBA8.
+void classify(const ImageView& image, const std::vector<Run>& runs, const std::vector<IntegerClass>& classes,
+              std::vector<Hit>& hits);
+
+}  // namespace movis::scan

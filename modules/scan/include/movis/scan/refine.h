@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "movis/core/bearing.h"
+#include "movis/core/image_view.h"
+#include "movis/core/yaml.h"
+#include "movis/scan/classify.h"
+#include "movis/scan/polar_map.h"
+
+namespace movis::scan {
+
+// From the pixels of a class to a bearing far finer than a pixel.
+//
+// A pixel on an object's border shows a mixture, and mixing is linear in the light, not in the gamma-encoded bytes.
+// Its membership is therefore taken from the saturation in linear light along the object's own hue h,
+//   s = max(0, α cos h + β sin h) / (max(R, G, B) + ε),     w = clamp((s − s_out)/(s_in − s_out), 0, 1)
+// with s_in that of the object's inside and s_out that of its surroundings: shading and brightness cancel.
+//
+// Ball: a sphere is seen under a circular cone, so the solid-angle-weighted mean of its pixels' rays is the direction
+//   of its centre in any central camera, near or far, tilted or not:  direction ∝ Σ w Ω r.
+// Goal: an upright edge at azimuth φ_e is where the memberships add up to those of a step seen through a pixel:
+//   Σ w_i = Σ S((φ_e − φ_i)/δ_i),  S(x) = clamp(x + 1/2, 0, 1), over a window around the edge within the goal's height;
+//   δ is the azimuth that a pixel covers. Solved by Newton's method.
+struct RefineOptions {
+  double dark = 0.03;             // ε, linear light of 1
+  int border_px = 2;              // how far a mixed pixel may lie from the class's own pixels
+  double edge_window_deg = 1.5;   // half width of the window around a goal's edge, at least four pixels
+  double edge_band = 0.5;         // the central part of the goal's height in which its edges are sought
+  double pixel_sigma = 0.15;      // noise of one border pixel's position, in pixels: see the bearings' covariance
+  double azimuth_floor_deg = 0.004;    // what no number of pixels takes away: aliasing, the model
+  double elevation_floor_deg = 0.02;
+};
+
+RefineOptions read_refine_options(const YamlMap& map);
+
+// Memory that is reused from object to object.
+struct RefineScratch {
+  struct Span {
+    int begin = 0, end = 0;  // columns, end excluded; empty where begin ≥ end
+  };
+  struct Sample {
+    float offset;  // azimuth from the coarse edge towards the inside, radians
+    float size;    // the azimuth that the pixel covers, radians
+    float membership;
+  };
+  std::vector<Span> spans;  // by image row
+  std::vector<float> values;
+  std::vector<Sample> samples;
+
+  RefineScratch(int image_width, int image_height);
+};
+
+// `selected` says for every azimuth bin whether hits in it belong to the object. The bearing's camera, object and time
+// are kept; the rest is filled in. False where too little of the object is left.
+bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
+                 const std::vector<std::uint8_t>& selected, const RefineOptions& options, RefineScratch& scratch,
+                 Bearing& bearing);
+
+// `first_bin` is the right end of the goal's segment, `bins` its length.
+bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
+                 const std::vector<std::uint8_t>& selected, int first_bin, int bins, const RefineOptions& options,
+                 RefineScratch& scratch, Bearing& bearing);
+
+}  // namespace movis::scan

@@ -1,0 +1,51 @@
+#include "movis/scan/colours.h"
+
+#include <cmath>
+
+#include "movis/core/angle.h"
+#include "movis/core/yaml.h"
+
+namespace movis::scan {
+namespace {
+
+constexpr Range kFraction{0.0, 1.0};
+
+void read_bounds(const YamlMap& map, const char* key, double& min, double& max) {
+  const std::vector<double> bounds = map.numbers(key, 2, kFraction);
+  min = bounds[0];
+  max = bounds[1];
+  if (!(min < max)) map.fail(key, "must be [smaller, larger]");
+}
+
+ColourClass read_class(const YamlMap& map, ObjectClass object) {
+  map.allow({"hue_deg", "chroma", "brightness"});
+  ColourClass colour;
+  colour.object = object;
+  const std::vector<double> hue = map.numbers("hue_deg", 2, {-360.0, 360.0});
+  const double width_deg = std::fmod(hue[1] - hue[0] + 720.0, 360.0);
+  const bool all_hues = hue[1] - hue[0] == 360.0;
+  if (!all_hues && !(width_deg > 0.0 && width_deg < 180.0)) {
+    map.fail("hue_deg", "must span less than 180°, counter-clockwise from the first to the second, or be [0, 360]");
+  }
+  colour.hue_from = all_hues ? 0.0 : radians(std::fmod(hue[0] + 360.0, 360.0));
+  colour.hue_width = all_hues ? 2.0 * kPi : radians(width_deg);
+  read_bounds(map, "chroma", colour.chroma_min, colour.chroma_max);
+  read_bounds(map, "brightness", colour.brightness_min, colour.brightness_max);
+  return colour;
+}
+
+}  // namespace
+
+Colours read_colours(const std::filesystem::path& file) {
+  const YamlMap map = YamlMap::read(file);
+  map.allow({"ball", "yellow_goal", "blue_goal", "field", "line", "obstacle"});
+  Colours colours;
+  for (int i = 0; i < kObjectClasses; ++i) {
+    const auto object = static_cast<ObjectClass>(i);
+    if (map.has(name(object))) colours.classes.push_back(read_class(map.map(name(object)), object));
+  }
+  if (colours.classes.empty()) map.fail("names no colour class");
+  return colours;
+}
+
+}  // namespace movis::scan

@@ -1,0 +1,65 @@
+#include "movis/scan/histogram.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace movis::scan {
+
+double adaptive_threshold(const std::vector<std::uint32_t>& counts, const ThresholdOptions& options) {
+  // The median by counting: bins hold few pixels, and what holds more than the table is long is no background.
+  constexpr std::uint32_t kTable = 256;
+  std::array<std::size_t, kTable> bins_with{};
+  std::uint32_t peak = 0;
+  for (const std::uint32_t count : counts) {
+    ++bins_with[std::min(count, kTable - 1)];
+    peak = std::max(peak, count);
+  }
+  std::uint32_t median = 0;
+  for (std::size_t below = bins_with[0]; median + 1 < kTable && 2 * below < counts.size(); below += bins_with[median]) {
+    ++median;
+  }
+  return std::max({options.minimum, median + options.sigmas * std::sqrt(median), options.peak_fraction * peak});
+}
+
+void find_segments(const Histogram& histogram, int bridged, std::vector<Segment>& segments) {
+  segments.clear();
+  const int bins = static_cast<int>(histogram.counts.size());
+  const auto filled = [&](int bin) { return histogram.counts[bin] >= histogram.threshold; };
+  const auto keep = [&](const Segment& segment) {
+    if (segments.size() < segments.capacity()) return segments.push_back(segment);
+    const auto smallest = std::min_element(segments.begin(), segments.end(),
+                                           [](const Segment& a, const Segment& b) { return a.pixels < b.pixels; });
+    if (smallest != segments.end() && smallest->pixels < segment.pixels) *smallest = segment;
+  };
+
+  // Start behind a gap that is too wide to be bridged, so that no segment crosses the start.
+  int start = -1;
+  int gap = 0;
+  for (int i = 0; i < 2 * bins && start < 0; ++i) {
+    gap = filled(i % bins) ? 0 : gap + 1;
+    if (gap > bridged) start = (i + 1) % bins;
+  }
+  if (start < 0) start = 0;  // all around
+
+  Segment current;
+  gap = 0;
+  for (int i = 0; i < bins; ++i) {
+    const int bin = (start + i) % bins;
+    if (!filled(bin)) {
+      ++gap;
+      continue;
+    }
+    if (current.length > 0 && gap > bridged) {
+      keep(current);
+      current = {};
+    }
+    if (current.length == 0) current.first = bin;
+    current.length = (bin - current.first + bins) % bins + 1;
+    current.pixels += histogram.counts[bin];
+    gap = 0;
+  }
+  if (current.length > 0) keep(current);
+}
+
+}  // namespace movis::scan

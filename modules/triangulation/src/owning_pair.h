@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "movis/core/error.h"
+#include "movis/triangulation/pairs.h"
+
+namespace movis::triangulation {
+
+// Two bearings of one object whose cameras own its direction.
+struct OwningPair {
+  PointStatus status = PointStatus::not_seen;
+  const Bearing* first = nullptr;
+  const Bearing* second = nullptr;
+  Intersection intersection;
+};
+
+// How nearly perpendicular the point's direction is to the pair's baseline, in 0…1: |sin| of the angle between them,
+// seen from the middle of the baseline.
+inline double perpendicularity(const Eigen::Vector2d& position1, const Eigen::Vector2d& position2,
+                               const Eigen::Vector2d& point) {
+  const Eigen::Vector2d baseline = position2 - position1;
+  const Eigen::Vector2d direction = point - 0.5 * (position1 + position2);
+  const double cross = baseline.x() * direction.y() - baseline.y() * direction.x();
+  return std::abs(cross) / std::max(baseline.norm() * direction.norm(), 1e-12);
+}
+
+// Intersects every pair of the object's bearings, `azimuth_of` each, and keeps the pair that owns the direction of its
+// own point; clean pairs go before flagged ones. Without a pair that intersects, the status of the last one that was
+// tried says why.
+template <typename AzimuthOf>
+OwningPair find_owning_pair(const omni::Rig& rig, const std::vector<Bearing>& bearings, ObjectClass object,
+                            AzimuthOf azimuth_of, const PairsOptions& options) {
+  if (rig.cameras.size() < 2) {
+    throw Error("triangulation needs a rig of two or more cameras; this one has {}", rig.cameras.size());
+  }
+  OwningPair best;
+  double best_score = -1.0;
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
+    const Bearing& one = bearings[i];
+    if (one.object != object) continue;
+    if (best.status == PointStatus::not_seen) best.status = PointStatus::one_camera;
+    for (std::size_t j = i + 1; j < bearings.size(); ++j) {
+      const Bearing& two = bearings[j];
+      if (two.object != object || two.camera == one.camera) continue;
+      const Eigen::Vector2d position1 = rig.cameras.at(one.camera).position.head<2>();
+      const Eigen::Vector2d position2 = rig.cameras.at(two.camera).position.head<2>();
+      const Intersection found = intersect(position1, azimuth_of(one), position2, azimuth_of(two), options);
+      if (found.status != PointStatus::ok) {
+        if (best_score < 0.0) best.status = found.status;
+        continue;
+      }
+      const double clean = one.clean() && two.clean() ? 1.0 : 0.0;
+      const double score = clean + perpendicularity(position1, position2, found.point);
+      if (score > best_score) {
+        best_score = score;
+        best = {PointStatus::ok, &one, &two, found};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace movis::triangulation
