@@ -1,6 +1,6 @@
-#include "movis/core/angle.h"
-
 #include <gtest/gtest.h>
+
+#include "movis/core/angle.h"
 
 namespace movis {
 namespace {

@@ -1,7 +1,6 @@
-#include "movis/core/csv.h"
-
 #include <gtest/gtest.h>
 
+#include "movis/core/csv.h"
 #include "support/temporary_folder.h"
 
 namespace movis {

@@ -1,9 +1,8 @@
-#include "movis/core/output_file.h"
-
 #include <gtest/gtest.h>
 
 #include <iterator>
 
+#include "movis/core/output_file.h"
 #include "support/temporary_folder.h"
 
 namespace movis {

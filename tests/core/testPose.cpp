@@ -1,6 +1,6 @@
-#include "movis/core/pose.h"
-
 #include <gtest/gtest.h>
+
+#include "movis/core/pose.h"
 
 namespace movis {
 namespace {

@@ -1,8 +1,7 @@
-#include "movis/core/yaml.h"
-
 #include <gtest/gtest.h>
 
 #include "movis/core/field.h"
+#include "movis/core/yaml.h"
 #include "support/temporary_folder.h"
 
 namespace movis {

@@ -1,12 +1,11 @@
 // One property suite over every camera model, then known answers for each.
-#include "movis/omni/camera_model.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "movis/core/angle.h"
+#include "movis/omni/camera_model.h"
 #include "movis/omni/rig.h"
 
 namespace movis::omni {
@@ -15,7 +14,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Hyperboloid mirror() { return {0.028095, 0.0234125, 0.0275, 660.0, 660.0, 319.5, 239.5}; }
+Hyperboloid mirror() {
+  return {0.028095, 0.0234125, 0.0275, 660.0, 660.0, 319.5, 239.5};
+}
 
 UnifiedSphere sphere(double xi) {
   UnifiedSphere model;

@@ -1,10 +1,9 @@
-#include "movis/omni/rig.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include "movis/core/angle.h"
+#include "movis/omni/rig.h"
 #include "support/temporary_folder.h"
 
 namespace movis::omni {

@@ -15,7 +15,9 @@ constexpr const char* kHeader =
 
 }  // namespace
 
-EstimatesFile::EstimatesFile(const std::filesystem::path& file) : output_(file) { output_.stream() << kHeader; }
+EstimatesFile::EstimatesFile(const std::filesystem::path& file) : output_(file) {
+  output_.stream() << kHeader;
+}
 
 void EstimatesFile::add(const pipeline::Estimate& estimate) {
   const PointEstimate& ball = estimate.ball_in_robot;

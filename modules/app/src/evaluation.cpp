@@ -74,11 +74,12 @@ std::string Evaluation::table() const {
     const Magnitude distance = magnitude(balls_, [](const BallError& e) { return e.distance; });
     const Magnitude direction = magnitude(balls_, [](const BallError& e) { return e.direction; });
     const Magnitude position = magnitude(balls_, [](const BallError& e) { return e.position; });
-    fmt::format_to(out,
-                   "\n            mean |error|   largest\n"
-                   "  distance  {:>9.3f} cm{:>9.3f} cm\n  direction {:>9.4f}° {:>9.4f}°\n  position  {:>9.3f} cm{:>9.3f} cm",
-                   100.0 * distance.mean, 100.0 * distance.max, degrees(direction.mean), degrees(direction.max),
-                   100.0 * position.mean, 100.0 * position.max);
+    fmt::format_to(
+        out,
+        "\n            mean |error|   largest\n"
+        "  distance  {:>9.3f} cm{:>9.3f} cm\n  direction {:>9.4f}° {:>9.4f}°\n  position  {:>9.3f} cm{:>9.3f} cm",
+        100.0 * distance.mean, 100.0 * distance.max, degrees(direction.mean), degrees(direction.max),
+        100.0 * position.mean, 100.0 * position.max);
   }
   fmt::format_to(out, "\n");
   if (poses_sought_ == 0) return text;

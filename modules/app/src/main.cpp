@@ -20,7 +20,8 @@ std::vector<std::string> localizer_names() {
 
 void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
   CLI::App* track = program.add_subcommand("track", "Measure ball and pose in every set of a data set");
-  track->add_option("--data", arguments.data, "The data set: a folder with rig.yaml, frames.csv and images")->required();
+  track->add_option("--data", arguments.data, "The data set: a folder with rig.yaml, frames.csv and images")
+      ->required();
   track->add_option("--out", arguments.out, "The estimates, a CSV file")->required();
   track->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
   track->add_option("--field", arguments.field, "Another field than the data set's field.yaml");

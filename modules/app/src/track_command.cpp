@@ -30,7 +30,8 @@ pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Da
   }
   const scan::Colours colours =
       scan::read_colours(arguments.colours ? *arguments.colours : data_file("colours/default.yaml"));
-  const pipeline::Options options = arguments.options ? pipeline::read_options(*arguments.options) : pipeline::Options{};
+  const pipeline::Options options =
+      arguments.options ? pipeline::read_options(*arguments.options) : pipeline::Options{};
   return {dataset.rig, field, colours, options, localization::find_localizer(arguments.localizer)};
 }
 

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 
 fs::path data_directory() {
   if (const char* chosen = std::getenv("MOVIS_DATA"); chosen != nullptr && *chosen != '\0') {
-    if (!fs::is_directory(chosen)) throw Error("MOVIS_DATA names '{}', which is no folder: correct or unset it", chosen);
+    if (!fs::is_directory(chosen))
+      throw Error("MOVIS_DATA names '{}', which is no folder: correct or unset it", chosen);
     return chosen;
   }
   std::error_code ignored;
@@ -28,7 +29,8 @@ fs::path data_directory() {
 
 fs::path data_file(const fs::path& relative) {
   const fs::path file = data_directory() / relative;
-  if (!fs::exists(file)) throw Error("{}: not found; is MOVIS_DATA right, is the installation complete?", file.string());
+  if (!fs::exists(file))
+    throw Error("{}: not found; is MOVIS_DATA right, is the installation complete?", file.string());
   return file;
 }
 

@@ -97,7 +97,9 @@ void YamlMap::allow(std::initializer_list<const char*> keys) const {
   }
 }
 
-bool YamlMap::has(const char* key) const { return (*node_)[key].IsDefined(); }
+bool YamlMap::has(const char* key) const {
+  return (*node_)[key].IsDefined();
+}
 
 std::string YamlMap::where(const char* key) const {
   const YAML::Node found = (*node_)[key];
@@ -115,9 +117,13 @@ void YamlMap::fail(const std::string& what) const {
   throw Error("{}: {}{}", location(file_, *node_), path_.empty() ? "" : "'" + path_ + "': ", what);
 }
 
-void YamlMap::fail(const char* key, const std::string& what) const { throw Error("{}: {}", where(key), what); }
+void YamlMap::fail(const char* key, const std::string& what) const {
+  throw Error("{}: {}", where(key), what);
+}
 
-double YamlMap::number(const char* key, Range range) const { return to_number(value(key), where(key), range); }
+double YamlMap::number(const char* key, Range range) const {
+  return to_number(value(key), where(key), range);
+}
 
 int YamlMap::integer(const char* key, Range range) const {
   const double number_read = number(key, range);

@@ -7,8 +7,8 @@
 namespace movis::omni {
 namespace {
 
-constexpr Range kMirror{0.001, 1.0};       // metres
-constexpr Range kFocalLength{1.0, 1e5};    // pixels
+constexpr Range kMirror{0.001, 1.0};     // metres
+constexpr Range kFocalLength{1.0, 1e5};  // pixels
 constexpr Range kPixel{-1e4, 1e5};
 constexpr Range kPosition{-10.0, 10.0};    // metres
 constexpr Range kAnyAngle{-1e4, 1e4};      // degrees; files may hold any angle
@@ -53,9 +53,9 @@ UnifiedSphere read_unified(const YamlMap& camera) {
 }
 
 PixelFormat read_format(const YamlMap& image) {
-  static constexpr PixelFormat kFormats[] = {PixelFormat::bgr8,        PixelFormat::rgb8,        PixelFormat::rgba8,
-                                             PixelFormat::mono8,       PixelFormat::bayer_rggb8, PixelFormat::bayer_bggr8,
-                                             PixelFormat::bayer_grbg8, PixelFormat::bayer_gbrg8};
+  static constexpr PixelFormat kFormats[] = {
+      PixelFormat::bgr8,        PixelFormat::rgb8,        PixelFormat::rgba8,       PixelFormat::mono8,
+      PixelFormat::bayer_rggb8, PixelFormat::bayer_bggr8, PixelFormat::bayer_grbg8, PixelFormat::bayer_gbrg8};
   const std::string text =
       image.one_of("format", {"BGR8", "RGB8", "RGBA8", "Mono8", "BayerRG8", "BayerBG8", "BayerGR8", "BayerGB8"});
   for (const PixelFormat format : kFormats) {

@@ -24,7 +24,9 @@ struct Context {
 
 #if HWY_TARGET == HWY_SCALAR
 
-constexpr int vector_lanes() { return 1; }
+constexpr int vector_lanes() {
+  return 1;
+}
 
 template <PixelFormat format>
 void classify_vector(const std::uint8_t* pixels, int u, int v, std::size_t /*count*/, const Context& context) {
@@ -104,7 +106,8 @@ ByteMask in_class(const IntegerClass& colour, ByteVector chroma, ByteVector brig
   const hn::ScalableTag<std::int8_t> s;
   // The words' high bytes back to their byte lanes: the even words' into the low bytes.
   const auto low = hn::Set(w, 0xFF);
-  const auto outside = hn::Or(hn::And(hn::ShiftRight<8>(sector(colour, even)), low), hn::AndNot(low, sector(colour, odd)));
+  const auto outside =
+      hn::Or(hn::And(hn::ShiftRight<8>(sector(colour, even)), low), hn::AndNot(low, sector(colour, odd)));
   const auto in_sector = hn::Not(hn::Lt(hn::BitCast(s, outside), hn::Zero(s)));
   return hn::And(hn::RebindMask(Bytes(), in_sector),
                  hn::And(within(chroma, colour.chroma_min, colour.chroma_max),
@@ -135,7 +138,9 @@ HWY_INLINE void classify_vector(const std::uint8_t* pixels, int u, int v, std::s
   }
 }
 
-int vector_lanes() { return static_cast<int>(hn::Lanes(Bytes())); }
+int vector_lanes() {
+  return static_cast<int>(hn::Lanes(Bytes()));
+}
 
 #endif  // HWY_SCALAR
 
@@ -163,9 +168,12 @@ void classify_image(const ImageView& image, const std::vector<Run>& runs, const 
   for (const IntegerClass& colour : classes) chroma_min = std::min(chroma_min, colour.chroma_min);
   const Context context{classes, chroma_min, hits};
   switch (image.format) {
-    case PixelFormat::bgr8: return classify_format<PixelFormat::bgr8>(image, runs, context);
-    case PixelFormat::rgb8: return classify_format<PixelFormat::rgb8>(image, runs, context);
-    case PixelFormat::rgba8: return classify_format<PixelFormat::rgba8>(image, runs, context);
+    case PixelFormat::bgr8:
+      return classify_format<PixelFormat::bgr8>(image, runs, context);
+    case PixelFormat::rgb8:
+      return classify_format<PixelFormat::rgb8>(image, runs, context);
+    case PixelFormat::rgba8:
+      return classify_format<PixelFormat::rgba8>(image, runs, context);
     default:
       throw Error("colours are scanned in BGR8, RGB8 or RGBA8 images, not in {}: convert it first", name(image.format));
   }

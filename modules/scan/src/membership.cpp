@@ -7,8 +7,7 @@ const std::array<float, 256>& linear_light() {
     std::array<float, 256> values{};
     for (int i = 0; i < 256; ++i) {
       const double encoded = i / 255.0;
-      values[i] =
-          static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+      values[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
     }
     return values;
   }();

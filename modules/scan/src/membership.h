@@ -23,32 +23,40 @@ inline Light light_at(const ImageView& image, int u, int v) {
   return {linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]};
 }
 
-// The opponent axes of hue: see colours.h.
-inline float alpha(const Light& light) { return light.r - 0.5F * (light.g + light.b); }
-inline float beta(const Light& light) { return 0.8660254F * (light.g - light.b); }
-inline float brightness(const Light& light) { return std::max({light.r, light.g, light.b}); }
+inline float brightness(const Light& light) {
+  return std::max({light.r, light.g, light.b});
+}
 
-// The saturation along a hue, s of refine.h, in 0…1.
-struct Saturation {
-  float cos_hue = 1.0F;
-  float sin_hue = 0.0F;
-  float dark = 0.03F;
-
-  float operator()(const Light& light) const {
-    const float along = cos_hue * alpha(light) + sin_hue * beta(light);
-    return std::max(0.0F, along) / (brightness(light) + dark);
-  }
+// The opponent axes of hue (colours.h) over brightness, in linear light: what shading leaves alone.
+struct Chromaticity {
+  float alpha = 0.0F, beta = 0.0F;
 };
 
-// w of refine.h.
-struct Membership {
-  Saturation saturation;
-  float outside = 0.0F;  // the saturation of the surroundings
-  float inside = 1.0F;   // of the object
+inline Chromaticity operator+(const Chromaticity& a, const Chromaticity& b) {
+  return {a.alpha + b.alpha, a.beta + b.beta};
+}
+inline Chromaticity operator-(const Chromaticity& a, const Chromaticity& b) {
+  return {a.alpha - b.alpha, a.beta - b.beta};
+}
+inline Chromaticity operator*(const Chromaticity& c, float factor) {
+  return {factor * c.alpha, factor * c.beta};
+}
+inline float dot(const Chromaticity& a, const Chromaticity& b) {
+  return a.alpha * b.alpha + a.beta * b.beta;
+}
+inline float saturation(const Chromaticity& c) {
+  return std::sqrt(dot(c, c));
+}
 
-  float operator()(const Light& light) const {
-    return std::clamp((saturation(light) - outside) / (inside - outside), 0.0F, 1.0F);
-  }
-};
+inline Chromaticity chromaticity(const Light& light, float dark) {
+  const float scale = 1.0F / (brightness(light) + dark);
+  return {scale * (light.r - 0.5F * (light.g + light.b)), scale * 0.8660254F * (light.g - light.b)};
+}
+
+// How far a chromaticity has come from that of the surroundings to that of the object: w of refine.h.
+inline float membership(const Chromaticity& c, const Chromaticity& outside, const Chromaticity& inside) {
+  const Chromaticity way = inside - outside;
+  return std::clamp(dot(c - outside, way) / dot(way, way), 0.0F, 1.0F);
+}
 
 }  // namespace movis::scan

@@ -14,7 +14,8 @@ namespace {
 cv::Mat read_mask(const omni::Camera& camera) {
   if (camera.mask.empty()) return {};
   cv::Mat mask = cv::imread(camera.mask.string(), cv::IMREAD_GRAYSCALE);
-  if (mask.empty()) throw Error("{}: the mask of camera '{}' cannot be read as an image", camera.mask.string(), camera.name);
+  if (mask.empty())
+    throw Error("{}: the mask of camera '{}' cannot be read as an image", camera.mask.string(), camera.name);
   if (mask.cols != camera.width || mask.rows != camera.height) {
     throw Error("{}: the mask of camera '{}' is {}×{}, its images are {}×{}", camera.mask.string(), camera.name,
                 mask.cols, mask.rows, camera.width, camera.height);
@@ -69,9 +70,10 @@ PolarMap make_polar_map(const omni::Camera& camera, int bins, double min_elevati
     }
   }
   if (map.runs.empty()) {
-    throw Error("camera '{}' sees nothing: its model leaves no pixel of the picture with a ray between elevations "
-                "{:.1f}° and {:.1f}°",
-                camera.name, degrees(min_elevation), degrees(max_elevation));
+    throw Error(
+        "camera '{}' sees nothing: its model leaves no pixel of the picture with a ray between elevations "
+        "{:.1f}° and {:.1f}°",
+        camera.name, degrees(min_elevation), degrees(max_elevation));
   }
   return map;
 }

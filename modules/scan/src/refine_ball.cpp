@@ -1,6 +1,8 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "membership.h"
 #include "movis/core/angle.h"
@@ -9,143 +11,255 @@
 namespace movis::scan {
 namespace {
 
+using Eigen::Vector3d;
 using Span = RefineScratch::Span;
 
 struct Rows {
   int begin = 0, end = 0;
 };
 
+template <typename Use>
+void for_ball(const PolarMap& map, const std::vector<Hit>& hits, const std::vector<std::uint8_t>& selected, Use use) {
+  for (const Hit& hit : hits) {
+    if (hit.object == ObjectClass::ball && selected[map.bin[map.index(hit.u, hit.v)]] != 0) use(hit);
+  }
+}
+
 // The columns from the first to the last hit in every row.
 Rows collect_spans(const PolarMap& map, const std::vector<Hit>& hits, const std::vector<std::uint8_t>& selected,
                    std::vector<Span>& spans) {
-  Rows rows{static_cast<int>(spans.size()), 0};
-  for (const Hit& hit : hits) {
-    if (hit.object != ObjectClass::ball || selected[map.bin[map.index(hit.u, hit.v)]] == 0) continue;
-    if (hit.v >= rows.end) {  // hits come in memory order: a new row
-      if (rows.end == 0) rows.begin = hit.v;
-      for (int v = std::max(rows.end, rows.begin); v <= hit.v; ++v) spans[v] = {};
-      spans[hit.v] = {hit.u, hit.u + 1};
-      rows.end = hit.v + 1;
-    } else {
-      spans[hit.v].end = hit.u + 1;
-    }
-  }
+  Rows rows;
+  for_ball(map, hits, selected, [&](const Hit& hit) {
+    if (rows.end == 0) rows.begin = rows.end = hit.v;
+    for (; rows.end <= hit.v; ++rows.end) spans[rows.end] = {};  // hits come in memory order
+    Span& span = spans[hit.v];
+    if (span.begin >= span.end) span.begin = hit.u;
+    span.end = hit.u + 1;
+  });
   return rows;
 }
 
-// The union of the spans within `border` rows, widened by as many columns.
-Span widened(const std::vector<Span>& spans, Rows rows, int v, int border, int width) {
-  Span wide{width, 0};
-  for (int near = std::max(rows.begin, v - border); near < std::min(rows.end, v + border + 1); ++near) {
-    if (spans[near].begin >= spans[near].end) continue;
-    wide.begin = std::min(wide.begin, spans[near].begin);
-    wide.end = std::max(wide.end, spans[near].end);
+// Every span united with those of the rows within `border`, and widened by as many columns.
+Rows widen(const std::vector<Span>& spans, Rows rows, int border, int width, int height, std::vector<Span>& widened) {
+  const Rows wide{std::max(0, rows.begin - border), std::min(height, rows.end + border)};
+  for (int v = wide.begin; v < wide.end; ++v) {
+    Span united{width, 0};
+    for (int near = std::max(rows.begin, v - border); near < std::min(rows.end, v + border + 1); ++near) {
+      if (spans[near].begin >= spans[near].end) continue;
+      united.begin = std::min(united.begin, spans[near].begin);
+      united.end = std::max(united.end, spans[near].end);
+    }
+    widened[v] = united.begin < united.end
+                     ? Span{std::max(0, united.begin - border), std::min(width, united.end + border), 0}
+                     : Span{};
   }
-  if (wide.begin >= wide.end) return {};
-  return {std::max(0, wide.begin - border), std::min(width, wide.end + border)};
+  return wide;
 }
 
-// The hue of the hits in linear light, and their saturation: the 80 % quantile, as border pixels are mixed.
-Membership object_colour(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
-                         const std::vector<std::uint8_t>& selected, double dark, std::vector<float>& values) {
-  const auto of_object = [&](const Hit& hit) {
-    return hit.object == ObjectClass::ball && selected[map.bin[map.index(hit.u, hit.v)]] != 0;
-  };
-  float sum_alpha = 0.0F;
-  float sum_beta = 0.0F;
-  for (const Hit& hit : hits) {
-    if (!of_object(hit)) continue;
-    const Light light = light_at(image, hit.u, hit.v);
-    sum_alpha += alpha(light);
-    sum_beta += beta(light);
-  }
-  Membership membership;
-  const float length = std::hypot(sum_alpha, sum_beta);
-  membership.saturation = {sum_alpha / length, sum_beta / length, static_cast<float>(dark)};
+// The ball's own chromaticity: that of its most saturated fifth, as pixels on its border are mixed.
+Chromaticity ball_chromaticity(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
+                               const std::vector<std::uint8_t>& selected, float dark, std::vector<float>& values) {
   values.clear();
-  for (const Hit& hit : hits) {
-    if (of_object(hit)) values.push_back(membership.saturation(light_at(image, hit.u, hit.v)));
-  }
+  for_ball(map, hits, selected,
+           [&](const Hit& hit) { values.push_back(saturation(chromaticity(light_at(image, hit.u, hit.v), dark))); });
   const auto quantile = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 4 / 5);
   std::nth_element(values.begin(), quantile, values.end());
-  membership.inside = *quantile;
-  return membership;
+  const float least = *quantile;
+  Chromaticity sum;
+  float count = 0.0F;
+  for_ball(map, hits, selected, [&](const Hit& hit) {
+    const Chromaticity c = chromaticity(light_at(image, hit.u, hit.v), dark);
+    if (saturation(c) < least) return;
+    sum = sum + c;
+    count += 1.0F;
+  });
+  return sum * (1.0F / count);
 }
 
-}  // namespace
-
-RefineScratch::RefineScratch(int image_width, int image_height) : spans(image_height) {
-  constexpr std::size_t kSamples = 1 << 13;
-  values.reserve(static_cast<std::size_t>(image_width) * image_height);
-  samples.reserve(kSamples);
+// The chromaticity beside the ball: at one end of the rows around v.
+Chromaticity surroundings(const ImageView& image, const std::vector<Span>& spans, Rows rows, int v, bool left,
+                          float dark) {
+  constexpr int kRowsAround = 1;
+  Chromaticity sum;
+  float count = 0.0F;
+  for (int near = std::max(rows.begin, v - kRowsAround); near < std::min(rows.end, v + kRowsAround + 1); ++near) {
+    if (spans[near].begin >= spans[near].end) continue;
+    sum = sum + chromaticity(light_at(image, left ? spans[near].begin : spans[near].end - 1, near), dark);
+    count += 1.0F;
+  }
+  return sum * (1.0F / count);
 }
 
-bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
-                 const std::vector<std::uint8_t>& selected, const RefineOptions& options, RefineScratch& scratch,
-                 Bearing& bearing) {
-  const Rows rows = collect_spans(map, hits, selected, scratch.spans);
-  if (rows.begin >= rows.end) return false;
-  const int border = options.border_px;
-  Membership membership = object_colour(image, map, hits, selected, options.dark, scratch.values);
-
-  // The surroundings: the ends of every row's span.
-  scratch.values.clear();
-  for (int v = std::max(0, rows.begin - border); v < std::min(map.height, rows.end + border); ++v) {
-    const Span span = widened(scratch.spans, rows, v, border, map.width);
+// Memberships of the pixels in the spans, row by row behind each other.
+void fill_memberships(const ImageView& image, std::vector<Span>& spans, Rows rows, const Chromaticity& inside,
+                      float dark, std::vector<float>& memberships) {
+  // Grey, white, black and green surroundings do not lie towards the ball's colour and are all taken for grey, so that
+  // where floor and wall meet behind the ball its left and right stay alike. Only a goal's colour is taken out.
+  constexpr float kTowardsBall = 0.2F;
+  constexpr float kLeastContrast = 0.15F;
+  const auto grey_unless_similar = [&](const Chromaticity& c) {
+    const bool similar = dot(c, inside) > kTowardsBall * dot(inside, inside);
+    return similar && saturation(inside - c) > kLeastContrast ? c : Chromaticity{};
+  };
+  memberships.clear();
+  for (int v = rows.begin; v < rows.end; ++v) {
+    Span& span = spans[v];
     if (span.begin >= span.end) continue;
-    for (const int u : {span.begin, span.end - 1}) {
-      if (map.contains(u, v)) scratch.values.push_back(membership.saturation(light_at(image, u, v)));
+    span.first = memberships.size();
+    const Chromaticity outside[2] = {grey_unless_similar(surroundings(image, spans, rows, v, true, dark)),
+                                     grey_unless_similar(surroundings(image, spans, rows, v, false, dark))};
+    const int middle = (span.begin + span.end) / 2;
+    for (int u = span.begin; u < span.end; ++u) {
+      memberships.push_back(membership(chromaticity(light_at(image, u, v), dark), outside[u < middle ? 0 : 1], inside));
     }
   }
-  if (scratch.values.empty()) return false;
-  const auto median = scratch.values.begin() + static_cast<std::ptrdiff_t>(scratch.values.size() / 2);
-  std::nth_element(scratch.values.begin(), median, scratch.values.end());
-  membership.outside = std::min(*median, 0.5F * membership.inside);
+}
 
-  // Σ w Ω r, and how much of the border is dark.
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double covered = 0.0;  // Σ w Ω
-  double weight = 0.0;   // Σ w
-  int surround = 0;
-  int dark = 0;
-  int beyond = 0;  // outside the scanned domain
-  constexpr float kDark = 0.035F;  // linear light
-  for (int v = std::max(0, rows.begin - border); v < std::min(map.height, rows.end + border); ++v) {
-    const Span span = widened(scratch.spans, rows, v, border, map.width);
-    for (int u = span.begin; u < span.end; ++u) {
-      if (!map.contains(u, v)) {
-        ++beyond;
+constexpr float kDark = 0.035F;  // linear light: the robots' own black
+
+struct Moments {
+  Vector3d sum = Vector3d::Zero();  // Σ w Ω r
+  double covered = 0.0;             // Σ w Ω
+  double weight = 0.0;              // Σ w
+  int around = 0;                   // pixels that are not the ball's
+  int dark = 0;                     // of them, those that show something black
+  bool beyond = false;              // the region reaches out of the scanned domain
+};
+
+Moments collect_moments(const ImageView& image, const PolarMap& map, const RefineScratch& scratch, Rows rows) {
+  constexpr double kNotTheBall = 0.1;
+  Moments moments;
+  const float* membership_read = scratch.memberships.data();
+  for (int v = rows.begin; v < rows.end; ++v) {
+    for (int u = scratch.widened[v].begin; u < scratch.widened[v].end; ++u) {
+      const double w = *membership_read++;
+      const PixelRay& ray = map.ray[map.index(u, v)];
+      if (ray.solid_angle <= 0.0F) {
+        moments.beyond = true;
         continue;
       }
-      const Light light = light_at(image, u, v);
-      const double w = membership(light);
-      const PixelRay& ray = map.ray[map.index(u, v)];
-      const double area = w * ray.solid_angle;
-      sum += area * Eigen::Vector3d(ray.x, ray.y, ray.z);
-      covered += area;
-      weight += w;
-      if (w < 0.1) {
-        ++surround;
-        if (brightness(light) < kDark) ++dark;
+      moments.sum += w * ray.solid_angle * Vector3d(ray.x, ray.y, ray.z);
+      moments.covered += w * ray.solid_angle;
+      moments.weight += w;
+      if (w < kNotTheBall) {
+        ++moments.around;
+        if (brightness(light_at(image, u, v)) < kDark) ++moments.dark;
       }
     }
   }
-  if (!(weight > 0.0) || !(sum.norm() > 0.0)) return false;
-  const Eigen::Vector3d direction = sum.normalized();
+  return moments;
+}
+
+// The points of the outline, finer than a pixel: where the membership passes ½ between neighbours. Left out are those
+// at which the ball ends at something black, which hides the rest of it.
+void collect_outline(const ImageView& image, const PolarMap& map, Rows rows, RefineScratch& scratch) {
+  const auto black = [&](int u, int v) { return map.contains(u, v) && brightness(light_at(image, u, v)) < kDark; };
+  const auto membership_at = [&](int u, int v) {
+    const Span& span = scratch.widened[v];
+    return scratch.memberships[span.first + static_cast<std::size_t>(u - span.begin)];
+  };
+  const auto ray_at = [&](int u, int v) {
+    const PixelRay& ray = map.ray[map.index(u, v)];
+    return Eigen::Vector3f(ray.x, ray.y, ray.z);
+  };
+  const auto between = [&](int u1, int v1, int u2, int v2) {
+    const float w1 = membership_at(u1, v1);
+    const float w2 = membership_at(u2, v2);
+    if ((w1 < 0.5F) == (w2 < 0.5F) || !map.contains(u1, v1) || !map.contains(u2, v2)) return;
+    const int du = w1 < 0.5F ? u1 - u2 : u2 - u1;  // outwards
+    const int dv = w1 < 0.5F ? v1 - v2 : v2 - v1;
+    const int u_out = w1 < 0.5F ? u1 : u2;
+    const int v_out = w1 < 0.5F ? v1 : v2;
+    if (black(u_out, v_out) || black(u_out + du, v_out + dv) || black(u_out + 2 * du, v_out + 2 * dv)) return;
+    if (scratch.outline.size() == scratch.outline.capacity()) return;
+    const float share = (0.5F - w1) / (w2 - w1);
+    scratch.outline.push_back(((1.0F - share) * ray_at(u1, v1) + share * ray_at(u2, v2)).normalized());
+  };
+  scratch.outline.clear();
+  for (int v = rows.begin; v < rows.end; ++v) {
+    const Span& span = scratch.widened[v];
+    for (int u = span.begin; u + 1 < span.end; ++u) between(u, v, u + 1, v);
+    if (v + 1 == rows.end) break;
+    const Span& below = scratch.widened[v + 1];
+    for (int u = std::max(span.begin, below.begin); u < std::min(span.end, below.end); ++u) between(u, v, u, v + 1);
+  }
+}
+
+struct Cone {
+  Vector3d axis;
+  Eigen::Matrix3d axis_covariance;
+};
+
+// Fits r·m = 1, trimming what lies farther off than three times the median. Nothing where too little is left.
+std::optional<Cone> fit_cone(const std::vector<Eigen::Vector3f>& outline, double pixel, std::vector<float>& values) {
+  constexpr int kRounds = 6;
+  constexpr int kFewest = 12;
+  Vector3d m = Vector3d::Zero();
+  double limit = 1e9;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Vector3d right_side = Vector3d::Zero();
+    double sum_of_squares = 0.0;
+    int used = 0;
+    for (const Eigen::Vector3f& point : outline) {
+      const Vector3d ray = point.cast<double>();
+      const double residual = round == 0 ? 0.0 : ray.dot(m) - 1.0;
+      if (std::abs(residual) > limit) continue;
+      normal += ray * ray.transpose();
+      right_side += ray;
+      sum_of_squares += residual * residual;
+      ++used;
+    }
+    if (used < kFewest) return std::nullopt;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+    if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-12)) return std::nullopt;
+    if (round == kRounds - 1) {
+      // n = m/|m|: ∂n/∂m = (I − n nᵀ)/|m|. Neighbouring points share their pixels: half of them are independent.
+      const double length = m.norm();
+      const Vector3d axis = m / length;
+      const Eigen::Matrix3d axis_by_m = (Eigen::Matrix3d::Identity() - axis * axis.transpose()) / length;
+      const double variance = 2.0 * sum_of_squares / (used - 3);
+      return Cone{axis, axis_by_m * (variance * solver.solve(Eigen::Matrix3d::Identity())) * axis_by_m.transpose()};
+    }
+    m = solver.solve(right_side);
+    values.clear();
+    for (const Eigen::Vector3f& point : outline) {
+      values.push_back(static_cast<float>(std::abs(point.cast<double>().dot(m) - 1.0)));
+    }
+    const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), median, values.end());
+    limit = std::max(3.0 * *median, 0.1 * pixel * m.norm());
+  }
+  return std::nullopt;
+}
+
+// Direction and covariance from the cone's axis.
+void take_cone(const Cone& cone, Bearing& bearing) {
+  const double horizontal = cone.axis.head<2>().norm();
+  bearing.azimuth = std::atan2(cone.axis.y(), cone.axis.x());
+  bearing.elevation = std::atan2(cone.axis.z(), horizontal);
+  Eigen::Matrix<double, 2, 3> angles_by_axis;
+  angles_by_axis << -cone.axis.y() / (horizontal * horizontal), cone.axis.x() / (horizontal * horizontal), 0.0,
+      -cone.axis.z() * cone.axis.x() / horizontal, -cone.axis.z() * cone.axis.y() / horizontal, horizontal;
+  bearing.covariance += angles_by_axis * cone.axis_covariance * angles_by_axis.transpose();
+}
+
+// Direction, extent and covariance from the moments of the whole disc.
+void describe_disc(const Moments& moments, const RefineOptions& options, Bearing& bearing) {
+  const Vector3d direction = moments.sum.normalized();
   bearing.azimuth = std::atan2(direction.y(), direction.x());
   bearing.elevation = std::asin(direction.z());
-  bearing.weight = weight;
+  bearing.weight = moments.weight;
 
   // A disc of angular radius γ covers 2π (1 − cos γ); its tangents differ from its centre by asin(sin γ / cos e).
-  const double cos_radius = std::max(-1.0, 1.0 - covered / (2.0 * kPi));
-  const double radius = std::acos(cos_radius);
+  const double radius = std::acos(std::max(-1.0, 1.0 - moments.covered / (2.0 * kPi)));
   const double cos_elevation = std::sqrt(1.0 - direction.z() * direction.z());
   const double half_width = std::asin(std::min(1.0, std::sin(std::min(radius, kPi / 2.0)) / cos_elevation));
   bearing.left = wrap_angle(bearing.azimuth + half_width);
   bearing.right = wrap_angle(bearing.azimuth - half_width);
 
   // Each border pixel places the outline to pixel_sigma; there are about 2π γ / pixel of them.
-  const double pixel = std::sqrt(covered / weight);
+  const double pixel = std::sqrt(moments.covered / moments.weight);
   const double border_pixels = std::max(4.0, 2.0 * kPi * radius / pixel);
   const double variance = options.pixel_sigma * options.pixel_sigma * pixel * pixel / border_pixels;
   const double azimuth_floor = radians(options.azimuth_floor_deg);
@@ -154,8 +268,42 @@ bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<
                                        variance + elevation_floor * elevation_floor)
                            .asDiagonal();
   bearing.left_variance = bearing.right_variance = 4.0 * bearing.covariance(0, 0);
-  if (beyond > 0) bearing.flags |= kCutByDomain;
-  if (dark > surround / 8) bearing.flags |= kCutByBody;
+}
+
+}  // namespace
+
+RefineScratch::RefineScratch(int image_width, int image_height) : spans(image_height), widened(image_height) {
+  constexpr std::size_t kSamples = 1 << 13;
+  const auto pixels = static_cast<std::size_t>(image_width) * image_height;
+  values.reserve(pixels);
+  memberships.reserve(pixels);
+  samples.reserve(kSamples);
+  outline.reserve(kSamples);
+}
+
+bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
+                 const std::vector<std::uint8_t>& selected, const RefineOptions& options, RefineScratch& scratch,
+                 Bearing& bearing) {
+  const Rows own = collect_spans(map, hits, selected, scratch.spans);
+  if (own.begin >= own.end) return false;
+  const Rows rows = widen(scratch.spans, own, options.border_px, map.width, map.height, scratch.widened);
+  const auto dark = static_cast<float>(options.dark);
+  const Chromaticity inside = ball_chromaticity(image, map, hits, selected, dark, scratch.values);
+  fill_memberships(image, scratch.widened, rows, inside, dark, scratch.memberships);
+  const Moments moments = collect_moments(image, map, scratch, rows);
+  if (!(moments.weight > 0.0) || !(moments.sum.norm() > 0.0)) return false;
+
+  describe_disc(moments, options, bearing);
+  if (moments.beyond) bearing.flags |= kCutByDomain;
+  constexpr int kTouchesBlack = 8;     // of the pixels around it, one in
+  constexpr double kLargeDisc = 1200;  // pixels: highlights shift its moments more than noise its outline
+  const bool cut = moments.dark > moments.around / kTouchesBlack;
+  if (cut) bearing.flags |= kCutByBody;
+  if (cut || moments.weight > kLargeDisc) {
+    collect_outline(image, map, rows, scratch);
+    const double pixel = std::sqrt(moments.covered / moments.weight);
+    if (const auto cone = fit_cone(scratch.outline, pixel, scratch.values)) take_cone(*cone, bearing);
+  }
   return true;
 }
 

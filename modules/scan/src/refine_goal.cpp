@@ -32,8 +32,9 @@ int bins_inwards(const PolarMap& map, const Edge& edge, int bin) {
 }
 
 struct Goal {
-  ObjectClass object;
-  Saturation saturation;  // along the goal's own hue
+  ObjectClass object = ObjectClass::yellow_goal;
+  float dark = 0.0F;  // ε of refine.h
+  Chromaticity hue;   // the goal's own, of length 1
   double mean_z = 0.0;
   double pixels = 0.0;
 };
@@ -56,7 +57,9 @@ struct Region {
   double window;  // half width in azimuth, radians
 };
 
-double azimuth_size(const PixelRay& ray) { return std::sqrt(ray.solid_angle / (1.0F - ray.z * ray.z)); }
+double azimuth_size(const PixelRay& ray) {
+  return std::sqrt(ray.solid_angle / (1.0F - ray.z * ray.z));
+}
 
 std::optional<Region> find_region(const PolarMap& map, const std::vector<Hit>& hits,
                                   const std::vector<std::uint8_t>& selected, ObjectClass object, const Edge& edge,
@@ -81,7 +84,12 @@ std::optional<Region> find_region(const PolarMap& map, const std::vector<Hit>& h
   const float top = *(values.end() - 1 - tenth);
   const float margin = static_cast<float>(0.5 * (1.0 - options.edge_band)) * (top - bottom);
 
-  Region region{bottom + margin, top - margin, map.width, 0, map.height, 0,
+  Region region{bottom + margin,
+                top - margin,
+                map.width,
+                0,
+                map.height,
+                0,
                 std::max(radians(options.edge_window_deg), 4.0 * size)};
   const int window_bins = static_cast<int>(region.window / (2.0 * kPi) * map.bins) + 1;
   for_goal(map, hits, selected, object, [&](const Hit& hit, std::size_t index) {
@@ -102,7 +110,7 @@ std::optional<Region> find_region(const PolarMap& map, const std::vector<Hit>& h
 }
 
 // The pixels of the window; their membership is still the bare saturation.
-void collect_samples(const ImageView& image, const PolarMap& map, const Saturation& saturation, const Edge& edge,
+void collect_samples(const ImageView& image, const PolarMap& map, const Goal& goal, const Edge& edge,
                      const Region& region, std::vector<Sample>& samples) {
   const float cos_edge = static_cast<float>(std::cos(edge.azimuth));
   const float sin_edge = static_cast<float>(std::sin(edge.azimuth));
@@ -118,7 +126,7 @@ void collect_samples(const ImageView& image, const PolarMap& map, const Saturati
       if (along <= 0.0F || std::abs(across) > window * along) continue;
       if (samples.size() == samples.capacity()) return;
       samples.push_back({std::atan(across / along), static_cast<float>(azimuth_size(ray)),
-                         saturation(light_at(image, u, v))});
+                         dot(chromaticity(light_at(image, u, v), goal.dark), goal.hue)});
     }
   }
 }
@@ -143,8 +151,7 @@ bool normalize(std::vector<Sample>& samples, double window) {
   constexpr double kLeastContrast = 0.1;
   if (inside - outside < kLeastContrast) return false;
   for (Sample& sample : samples) {
-    sample.membership =
-        std::clamp(static_cast<float>((sample.membership - outside) / (inside - outside)), 0.0F, 1.0F);
+    sample.membership = std::clamp(static_cast<float>((sample.membership - outside) / (inside - outside)), 0.0F, 1.0F);
   }
   return true;
 }
@@ -154,12 +161,16 @@ struct Crossing {
   double variance;  // rad²
 };
 
-// The step position at which Σ w = Σ S.
+// The step position at which Σ w = Σ S: Newton's method within a bracket, as Σ S falls with the position in straight
+// pieces. Nothing where it lies beyond the window.
 std::optional<Crossing> solve_step(const std::vector<Sample>& samples, double window, double pixel_sigma) {
+  constexpr int kMaxSteps = 50;
+  constexpr double kTolerance = 1e-7;  // radians
   double weight = 0.0;
   for (const Sample& sample : samples) weight += sample.membership;
+  double low = -window;
+  double high = window;
   double edge = 0.0;
-  constexpr int kMaxSteps = 20;
   for (int step = 0; step < kMaxSteps; ++step) {
     double sum = 0.0;
     double slope = 0.0;  // −dΣS/d edge
@@ -168,15 +179,16 @@ std::optional<Crossing> solve_step(const std::vector<Sample>& samples, double wi
       sum += std::clamp(x, 0.0, 1.0);
       if (x > 0.0 && x < 1.0) slope += 1.0 / sample.size;
     }
-    if (!(slope > 0.0)) return std::nullopt;
-    const double change = std::clamp((sum - weight) / slope, -0.5 * window, 0.5 * window);
-    edge += change;
-    if (std::abs(edge) > window) return std::nullopt;
-    if (std::abs(change) < 1e-7) {
-      // Each of the rows that cross the edge places it to pixel_sigma; slope · size is their number.
-      const double size = samples.front().size;
-      return Crossing{edge, pixel_sigma * pixel_sigma * size * size / std::max(1.0, slope * size)};
-    }
+    (sum > weight ? low : high) = edge;
+    double next = slope > 0.0 ? edge + (sum - weight) / slope : high;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double change = next - edge;
+    edge = next;
+    if (std::abs(change) > kTolerance) continue;
+    if (std::abs(edge) > 0.9 * window) return std::nullopt;
+    // Each of the rows that cross the edge places it to pixel_sigma; slope · size is about their number.
+    const double size = samples.front().size;
+    return Crossing{edge, pixel_sigma * pixel_sigma * size * size / std::max(1.0, slope * size)};
   }
   return std::nullopt;
 }
@@ -186,26 +198,23 @@ std::optional<Crossing> refine_edge(const ImageView& image, const PolarMap& map,
                                     int bins, const RefineOptions& options, RefineScratch& scratch) {
   const auto region = find_region(map, hits, selected, goal.object, edge, bins, options, scratch.values);
   if (!region) return std::nullopt;
-  collect_samples(image, map, goal.saturation, edge, *region, scratch.samples);
+  collect_samples(image, map, goal, edge, *region, scratch.samples);
   if (!normalize(scratch.samples, region->window)) return std::nullopt;
   return solve_step(scratch.samples, region->window, options.pixel_sigma);
 }
 
 Goal describe(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
               const std::vector<std::uint8_t>& selected, ObjectClass object, double dark) {
-  Goal goal{object, {}, 0.0, 0.0};
-  float sum_alpha = 0.0F;
-  float sum_beta = 0.0F;
+  Goal goal;
+  goal.object = object;
+  goal.dark = static_cast<float>(dark);
   for_goal(map, hits, selected, object, [&](const Hit& hit, std::size_t index) {
-    const Light light = light_at(image, hit.u, hit.v);
-    sum_alpha += alpha(light);
-    sum_beta += beta(light);
+    goal.hue = goal.hue + chromaticity(light_at(image, hit.u, hit.v), goal.dark);
     goal.mean_z += map.ray[index].z;
     goal.pixels += 1.0;
   });
-  const float length = std::hypot(sum_alpha, sum_beta);
   if (goal.pixels > 0.0) goal.mean_z /= goal.pixels;
-  if (length > 0.0F) goal.saturation = {sum_alpha / length, sum_beta / length, static_cast<float>(dark)};
+  if (const float length = saturation(goal.hue); length > 0.0F) goal.hue = goal.hue * (1.0F / length);
   return goal;
 }
 
@@ -217,22 +226,30 @@ bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<
   const Goal goal = describe(image, map, hits, selected, bearing.object, options.dark);
   const Edge right = make_edge(map, first_bin, +1);
   const Edge left = make_edge(map, (first_bin + bins - 1) % map.bins, -1);
-  const auto right_crossing = refine_edge(image, map, hits, selected, goal, right, bins, options, scratch);
-  const auto left_crossing = refine_edge(image, map, hits, selected, goal, left, bins, options, scratch);
-  if (!right_crossing || !left_crossing) return false;
+  if (!(goal.pixels > 0.0)) return false;
+  // An edge that something hides is known to a bin only.
+  const double bin = 2.0 * kPi / map.bins;
+  const Crossing coarse{0.0, bin * bin};
+  const auto crossing_at = [&](const Edge& edge) {
+    const auto crossing = refine_edge(image, map, hits, selected, goal, edge, bins, options, scratch);
+    if (!crossing) bearing.flags |= kCutByObject;
+    return crossing.value_or(coarse);
+  };
+  const Crossing at_right = crossing_at(right);
+  const Crossing at_left = crossing_at(left);
 
   const double floor = radians(options.azimuth_floor_deg);
-  bearing.right = wrap_angle(right.azimuth + right_crossing->offset);
-  bearing.left = wrap_angle(left.azimuth - left_crossing->offset);
-  bearing.right_variance = right_crossing->variance + floor * floor;
-  bearing.left_variance = left_crossing->variance + floor * floor;
+  bearing.right = wrap_angle(right.azimuth + at_right.offset);
+  bearing.left = wrap_angle(left.azimuth - at_left.offset);
+  bearing.right_variance = at_right.variance + floor * floor;
+  bearing.left_variance = at_left.variance + floor * floor;
   bearing.azimuth = wrap_angle(bearing.right + 0.5 * turn(bearing.right, bearing.left));
   bearing.elevation = std::asin(goal.mean_z);
   bearing.weight = goal.pixels;
   const double elevation_sigma = radians(options.elevation_floor_deg) + std::sqrt(bearing.left_variance);
-  bearing.covariance = Eigen::Vector2d(0.25 * (bearing.left_variance + bearing.right_variance),
-                                       elevation_sigma * elevation_sigma)
-                           .asDiagonal();
+  bearing.covariance =
+      Eigen::Vector2d(0.25 * (bearing.left_variance + bearing.right_variance), elevation_sigma * elevation_sigma)
+          .asDiagonal();
   return true;
 }
 

@@ -15,8 +15,8 @@ ThresholdOptions read_threshold_options(const YamlMap& map) {
 }  // namespace
 
 RefineOptions read_refine_options(const YamlMap& map) {
-  map.allow({"dark", "border_px", "edge_window_deg", "edge_band", "pixel_sigma", "azimuth_floor_deg",
-             "elevation_floor_deg"});
+  map.allow(
+      {"dark", "border_px", "edge_window_deg", "edge_band", "pixel_sigma", "azimuth_floor_deg", "elevation_floor_deg"});
   RefineOptions options;
   map.read_number("dark", {0.001, 1.0}, options.dark);
   map.read_integer("border_px", {1.0, 10.0}, options.border_px);

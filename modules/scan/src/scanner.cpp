@@ -44,7 +44,9 @@ Scanner::Scanner(const omni::Rig& rig, int camera, const Colours& colours, const
   for (Histogram& histogram : histograms_) histogram.counts.assign(options.bins, 0);
 }
 
-const Histogram& Scanner::histogram(ObjectClass object) const { return histograms_[static_cast<int>(object)]; }
+const Histogram& Scanner::histogram(ObjectClass object) const {
+  return histograms_[static_cast<int>(object)];
+}
 
 void Scanner::check(const ImageView& image) const {
   if (image.width != camera_.width || image.height != camera_.height) {
@@ -100,8 +102,8 @@ bool Scanner::find_object(ObjectClass object, Bearing& bearing, const ImageView&
     selected_[(largest->first + i + options_.bins) % options_.bins] = 1;
   }
   const bool found = ball ? refine_ball(image, map_, hits_, selected_, options_.refine, scratch_, bearing)
-                          : refine_goal(image, map_, hits_, selected_, largest->first, largest->length,
-                                        options_.refine, scratch_, bearing);
+                          : refine_goal(image, map_, hits_, selected_, largest->first, largest->length, options_.refine,
+                                        scratch_, bearing);
   if (found) flag_sensors(bearing);
   return found;
 }
@@ -109,12 +111,13 @@ bool Scanner::find_object(ObjectClass object, Bearing& bearing, const ImageView&
 // A ball is disturbed by a sensor unit anywhere before it, a goal by one before its edges.
 void Scanner::flag_sensors(Bearing& bearing) const {
   const auto overlaps = [](const Sector& sector, double right, double left) {
-    return turn(sector.azimuth + sector.half_width, right) < 0.0 && turn(sector.azimuth - sector.half_width, left) > 0.0;
+    return turn(sector.azimuth + sector.half_width, right) < 0.0 &&
+           turn(sector.azimuth - sector.half_width, left) > 0.0;
   };
   for (const Sector& sector : sensors_) {
-    const bool hidden = bearing.object == ObjectClass::ball
-                            ? overlaps(sector, bearing.right, bearing.left)
-                            : overlaps(sector, bearing.left, bearing.left) || overlaps(sector, bearing.right, bearing.right);
+    const bool hidden = bearing.object == ObjectClass::ball ? overlaps(sector, bearing.right, bearing.left)
+                                                            : overlaps(sector, bearing.left, bearing.left) ||
+                                                                  overlaps(sector, bearing.right, bearing.right);
     if (hidden) bearing.flags |= kNearSensor;
   }
 }

@@ -27,9 +27,15 @@ inline double perpendicularity(const Eigen::Vector2d& position1, const Eigen::Ve
   return std::abs(cross) / std::max(baseline.norm() * direction.norm(), 1e-12);
 }
 
+// Of an azimuth, for choosing between pairs: a flagged bearing is about three times worse than its covariance says.
+inline double trusted_variance(const Bearing& bearing) {
+  constexpr double kFlagged = 3.0;
+  return bearing.covariance(0, 0) * (bearing.clean() ? 1.0 : kFlagged * kFlagged);
+}
+
 // Intersects every pair of the object's bearings, `azimuth_of` each, and keeps the pair that owns the direction of its
-// own point; clean pairs go before flagged ones. Without a pair that intersects, the status of the last one that was
-// tried says why.
+// own point: the largest perpendicularity over the standard deviation of the parallax. Where all bearings are equally
+// good these are the paper's areas. Without a pair that intersects, the status of the last one that was tried says why.
 template <typename AzimuthOf>
 OwningPair find_owning_pair(const omni::Rig& rig, const std::vector<Bearing>& bearings, ObjectClass object,
                             AzimuthOf azimuth_of, const PairsOptions& options) {
@@ -52,8 +58,8 @@ OwningPair find_owning_pair(const omni::Rig& rig, const std::vector<Bearing>& be
         if (best_score < 0.0) best.status = found.status;
         continue;
       }
-      const double clean = one.clean() && two.clean() ? 1.0 : 0.0;
-      const double score = clean + perpendicularity(position1, position2, found.point);
+      const double deviation = std::sqrt(trusted_variance(one) + trusted_variance(two));
+      const double score = perpendicularity(position1, position2, found.point) / std::max(deviation, 1e-12);
       if (score > best_score) {
         best_score = score;
         best = {PointStatus::ok, &one, &two, found};

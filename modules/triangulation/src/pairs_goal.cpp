@@ -26,7 +26,9 @@ ByEdges derivative_by_edges(const OwningPair& pair, const Landmark& landmark) {
   return by_edges;
 }
 
-Eigen::Vector2d edge_variances(const Bearing& bearing) { return {bearing.left_variance, bearing.right_variance}; }
+Eigen::Vector2d edge_variances(const Bearing& bearing) {
+  return {bearing.left_variance, bearing.right_variance};
+}
 
 // Covariance of two landmarks, through the edges of the bearings that they share.
 Matrix2d cross_covariance(const OwningPair& a, const ByEdges& a_by_edges, const OwningPair& b,
@@ -48,9 +50,8 @@ Matrix2d cross_covariance(const OwningPair& a, const ByEdges& a_by_edges, const 
 
 GoalPoints triangulate_goal_pairs(const omni::Rig& rig, const std::vector<Bearing>& bearings, ObjectClass goal,
                                   const PairsOptions& options) {
-  const Landmark landmarks[] = {{&Bearing::azimuth, {0.5, 0.5}, 0},
-                                {&Bearing::left, {1.0, 0.0}, 2},
-                                {&Bearing::right, {0.0, 1.0}, 4}};
+  const Landmark landmarks[] = {
+      {&Bearing::azimuth, {0.5, 0.5}, 0}, {&Bearing::left, {1.0, 0.0}, 2}, {&Bearing::right, {0.0, 1.0}, 4}};
   OwningPair pairs[3];
   ByEdges by_edges[3];
   for (int i = 0; i < 3; ++i) {

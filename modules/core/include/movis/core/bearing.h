@@ -13,10 +13,10 @@ const char* name(ObjectClass object);
 
 // Why a bearing deserves less trust. Bits, to be combined.
 enum BearingFlag : std::uint8_t {
-  kCutByBody = 1,     // the object's image touches the own body: part of it is hidden
-  kNearSensor = 2,    // its azimuths overlap those of another sensor unit, which may hide part of it
-  kCutByDomain = 4,   // its image reaches the border of the mirror or of the picture
-  kCutByObject = 8,   // something else stands before it (a ball before a goal, an obstacle)
+  kCutByBody = 1,    // the object's image touches the own body: part of it is hidden
+  kNearSensor = 2,   // its azimuths overlap those of another sensor unit, which may hide part of it
+  kCutByDomain = 4,  // its image reaches the border of the mirror or of the picture
+  kCutByObject = 8,  // something else stands before it (a ball before a goal, an obstacle)
 };
 
 // The direction in which one camera sees one object. Angles are of the ray in the robot's axes (tilt and yaw are

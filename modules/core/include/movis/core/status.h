@@ -12,10 +12,10 @@ namespace movis {
 // What became of the measurement of a point. The words are those of the estimates' CSV.
 enum class PointStatus : std::uint8_t {
   ok,
-  not_seen,        // no camera saw it
-  one_camera,      // one bearing gives a direction, no distance
-  parallel_rays,   // the rays do not intersect within the range that is measured
-  behind_camera,   // the lines intersect, but behind a camera: the bearings are not of one point
+  not_seen,       // no camera saw it
+  one_camera,     // one bearing gives a direction, no distance
+  parallel_rays,  // the rays do not intersect within the range that is measured
+  behind_camera,  // the lines intersect, but behind a camera: the bearings are not of one point
 };
 
 // What became of a fix of the robot's pose.

@@ -17,8 +17,8 @@ struct Projection;
 // Source: S. Baker, S. K. Nayar, IJCV 35(2), 1999; derived by hand from the mirror's equation.
 // Domain: the ray meets the mirror within its rim, ρ √(s_x² + s_y²) ≤ rim_radius, with s_z < a/c.
 struct Hyperboloid {
-  double a = 0.0, b = 0.0;    // metres
-  double rim_radius = 0.0;    // metres
+  double a = 0.0, b = 0.0;                        // metres
+  double rim_radius = 0.0;                        // metres
   double fu = 0.0, fv = 0.0, u0 = 0.0, v0 = 0.0;  // of the pinhole, pixels
 };
 

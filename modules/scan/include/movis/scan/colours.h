@@ -14,7 +14,7 @@ namespace movis::scan {
 // then lines through the grey axis: two linear inequalities in R, G, B.
 struct ColourClass {
   ObjectClass object = ObjectClass::ball;
-  double hue_from = 0.0;  // radians, in [0, 2π)
+  double hue_from = 0.0;   // radians, in [0, 2π)
   double hue_width = 0.0;  // radians, counter-clockwise from hue_from: below π, or 2π for every hue
   double chroma_min = 0.0, chroma_max = 1.0;
   double brightness_min = 0.0, brightness_max = 1.0;

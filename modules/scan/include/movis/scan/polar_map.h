@@ -27,8 +27,8 @@ struct PolarMap {
   int width = 0;
   int height = 0;
   int bins = 0;
-  std::vector<Run> runs;            // the pixels that are scanned, in memory order
-  std::vector<std::uint16_t> bin;   // of the azimuth: see Histogram
+  std::vector<Run> runs;           // the pixels that are scanned, in memory order
+  std::vector<std::uint16_t> bin;  // of the azimuth: see Histogram
   std::vector<PixelRay> ray;
 
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * width + u; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -20,16 +21,19 @@ namespace movis::scan {
 //
 // Ball: a sphere is seen under a circular cone, so the solid-angle-weighted mean of its pixels' rays is the direction
 //   of its centre in any central camera, near or far, tilted or not:  direction ∝ Σ w Ω r.
+//   Where the own robot or another sensor unit hides a part, the visible rest of the outline is fitted instead: rays on
+//   a cone around n with half angle γ satisfy r·m = 1 with m = n/cos γ, linear least squares in m, outliers trimmed.
 // Goal: an upright edge at azimuth φ_e is where the memberships add up to those of a step seen through a pixel:
 //   Σ w_i = Σ S((φ_e − φ_i)/δ_i),  S(x) = clamp(x + 1/2, 0, 1), over a window around the edge within the goal's height;
-//   δ is the azimuth that a pixel covers. Solved by Newton's method.
+//   δ is the azimuth that a pixel covers. Solved by Newton's method. Where it has no
+//   solution, as something else stands before the edge, the edge is that of the histogram, with a bin's variance.
 struct RefineOptions {
-  double dark = 0.03;             // ε, linear light of 1
-  int border_px = 2;              // how far a mixed pixel may lie from the class's own pixels
-  double edge_window_deg = 1.5;   // half width of the window around a goal's edge, at least four pixels
-  double edge_band = 0.5;         // the central part of the goal's height in which its edges are sought
-  double pixel_sigma = 0.15;      // noise of one border pixel's position, in pixels: see the bearings' covariance
-  double azimuth_floor_deg = 0.004;    // what no number of pixels takes away: aliasing, the model
+  double dark = 0.03;                // ε, linear light of 1
+  int border_px = 2;                 // how far a mixed pixel may lie from the class's own pixels
+  double edge_window_deg = 1.5;      // half width of the window around a goal's edge, at least four pixels
+  double edge_band = 0.5;            // the central part of the goal's height in which its edges are sought
+  double pixel_sigma = 0.15;         // noise of one border pixel's position, in pixels: see the bearings' covariance
+  double azimuth_floor_deg = 0.004;  // what no number of pixels takes away: aliasing, the model
   double elevation_floor_deg = 0.02;
 };
 
@@ -39,15 +43,17 @@ RefineOptions read_refine_options(const YamlMap& map);
 struct RefineScratch {
   struct Span {
     int begin = 0, end = 0;  // columns, end excluded; empty where begin ≥ end
+    std::size_t first = 0;   // where the row's pixels start in `memberships`
   };
   struct Sample {
     float offset;  // azimuth from the coarse edge towards the inside, radians
     float size;    // the azimuth that the pixel covers, radians
     float membership;
   };
-  std::vector<Span> spans;  // by image row
-  std::vector<float> values;
+  std::vector<Span> spans, widened;  // by image row
+  std::vector<float> values, memberships;
   std::vector<Sample> samples;
+  std::vector<Eigen::Vector3f> outline;  // unit rays
 
   RefineScratch(int image_width, int image_height);
 };

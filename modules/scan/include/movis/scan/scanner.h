@@ -20,9 +20,9 @@ struct ScanOptions {
   double min_elevation_deg = -75.0;  // below it a camera sees only its own robot
   double max_elevation_deg = 45.0;
   int min_object_pixels = 6;
-  double ball_gap_deg = 1.5;         // bridged within one ball
-  double goal_gap_deg = 12.0;        // bridged within one goal: another sensor unit may stand before it
-  double sensor_radius = 0.03;       // of another sensor unit, metres: azimuths that it may hide
+  double ball_gap_deg = 1.5;    // bridged within one ball
+  double goal_gap_deg = 12.0;   // bridged within one goal: another sensor unit may stand before it
+  double sensor_radius = 0.03;  // of another sensor unit, metres: azimuths that it may hide
   ThresholdOptions threshold;
   RefineOptions refine;
 };

@@ -34,15 +34,16 @@ PairsOptions read_pairs_options(const YamlMap& map);
 struct Intersection {
   PointStatus status = PointStatus::not_seen;
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
-  double range1 = 0.0, range2 = 0.0;                                // along the rays, metres
-  Eigen::Matrix2d point_by_azimuths = Eigen::Matrix2d::Zero();     // metres a radian
+  double range1 = 0.0, range2 = 0.0;                            // along the rays, metres
+  Eigen::Matrix2d point_by_azimuths = Eigen::Matrix2d::Zero();  // metres a radian
 };
 
 Intersection intersect(const Eigen::Vector2d& position1, double azimuth1, const Eigen::Vector2d& position2,
                        double azimuth2, const PairsOptions& options = {});
 
-// The object's position in the robot frame from the bearings of its class. Pairs of clean bearings go before pairs of
-// flagged ones. A precondition that is broken (a rig of one camera, a bearing of a camera that the rig has not) throws.
+// The object's position in the robot frame from the bearings of its class. Where a pair's bearings are flagged or have
+// a large covariance, the next best pair takes over. A precondition that is broken (a rig of one camera, a bearing of a
+// camera that the rig has not) throws.
 PointEstimate triangulate_pairs(const omni::Rig& rig, const std::vector<Bearing>& bearings, ObjectClass object,
                                 const PairsOptions& options = {});
 

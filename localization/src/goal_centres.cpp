@@ -1,0 +1,34 @@
+#include "goal_centres.h"
+
+#include <cmath>
+
+namespace movis::localization {
+
+Solution solve_centres(const triangulation::GoalLandmarks& landmarks) {
+  const Eigen::Vector2d& p = landmarks.yellow.centre;
+  const Eigen::Vector2d& q = landmarks.blue.centre;
+  const Eigen::Vector2d d = p - q;
+  const Eigen::Vector2d m = 0.5 * (p + q);
+
+  const double beta = std::atan2(d.x(), d.y());  // (11)
+  const double c = std::cos(beta);
+  const double s = std::sin(beta);
+  const double x_r = m.y() * s - m.x() * c;   // the mean of (7) and (9), which is (19)
+  const double y_r = -m.x() * s - m.y() * c;  // the mean of (8) and (10): +Fd and −Fd cancel
+
+  // As (X_R, Y_R) = −R(β) m, its derivative by β is (−Y_R, X_R).
+  Eigen::Matrix<double, 3, 2> by_m;
+  by_m << -c, s,  //
+      -s, -c,     //
+      0.0, 0.0;
+  const Eigen::RowVector2d beta_by_d = Eigen::RowVector2d(d.y(), -d.x()) / d.squaredNorm();
+  const Eigen::Matrix<double, 3, 2> by_d = Eigen::Vector3d(-y_r, x_r, 1.0) * beta_by_d;
+
+  Solution solution;
+  solution.world_from_robot = {x_r, y_r, wrap_angle(beta)};
+  solution.by_yellow.middleCols<2>(kCentre) = 0.5 * by_m + by_d;
+  solution.by_blue.middleCols<2>(kCentre) = 0.5 * by_m - by_d;
+  return solution;
+}
+
+}  // namespace movis::localization
