@@ -22,8 +22,7 @@ void check_folder(const fs::path& folder, bool needs_rig) {
   const auto fail = [&](const char* what) {
     throw Error(
         "{}: {}. A data set is a folder with rig.yaml, frames.csv (columns frame, time_s and one of image paths for "
-        "each "
-        "camera of the rig) and the images",
+        "each camera of the rig) and the images",
         folder.string(), what);
   };
   if (!fs::exists(folder, ignored)) fail("does not exist");

@@ -68,13 +68,14 @@ bool read_bytes(const std::filesystem::path& file, Bytes& bytes) {
   return stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)).good();
 }
 
-// Where it does not recognize a file, cv::imdecode() leaves a matrix that it is given as it was: the image before would
-// pass for this one. So a pixel is marked; where the mark is still there, a new matrix tells whether it was decoded.
+// Where it does not understand a file's head, cv::imdecode() leaves the matrix that it is given as it was, and the
+// image before would pass for this one. So a pixel is marked; where the mark is still there, a new matrix tells what
+// happened.
 bool decode(const Bytes& bytes, cv::Mat& image) {
   static constexpr int kFlags = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION;
   const cv::Vec3b mark(1, 254, 3);
   try {
-    if (!image.empty()) image.at<cv::Vec3b>(0, 0) = mark;
+    image.at<cv::Vec3b>(0, 0) = mark;
     cv::imdecode(bytes, kFlags, &image);
     if (!image.empty() && image.at<cv::Vec3b>(0, 0) == mark) image = cv::imdecode(bytes, kFlags);
     return !image.empty();
@@ -94,12 +95,12 @@ void read_image(const Dataset& dataset, const DatasetFrame& frame, std::size_t c
   if (!read_bytes(file, bytes)) fail("cannot be read; check that it is there and may be read");
   if (bytes.empty()) fail(std::string("is an empty file") + kOtherwise);
   if (is_cut_off(bytes)) fail(std::string("is cut off before its end") + kOtherwise);
-  if (!decode(bytes, image)) fail("cannot be decoded; is it an undamaged PNG or JPEG image?");
   const omni::Camera& expected = dataset.rig.cameras[camera];
+  image.create(expected.height, expected.width, CV_8UC3);
+  if (!decode(bytes, image)) fail("cannot be decoded; is it an undamaged PNG or JPEG image?");
   if (image.cols != expected.width || image.rows != expected.height) {
     fail(fmt::format(
-        "has {}x{} pixels where {} says {}x{} for camera '{}'; name the rig of these images, or correct its "
-        "image size",
+        "has {}x{} pixels where {} says {}x{} for camera '{}'; name the rig of these images, or correct its image size",
         image.cols, image.rows, dataset.rig_file.string(), expected.width, expected.height, expected.name));
   }
 }

@@ -20,13 +20,9 @@ std::map<std::int64_t, Truth> read_truth(const std::filesystem::path& file) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto number = [&](std::size_t column) { return table.number(row, column); };
     const int frame = table.integer(row, 0);
-    const bool is_new = truth
-                            .emplace(frame, Truth{number(1),
-                                                  {number(2), number(3), wrap_angle(number(4))},
-                                                  {number(5), number(6), number(7)},
-                                                  table.text(row, 8)})
-                            .second;
-    if (!is_new) {
+    const Pose2 world_from_robot{number(2), number(3), wrap_angle(number(4))};
+    const Eigen::Vector3d ball_in_field(number(5), number(6), number(7));
+    if (!truth.emplace(frame, Truth{number(1), world_from_robot, ball_in_field, table.text(row, 8)}).second) {
       throw Error("{}:{}: column 'frame': {} stands in an earlier line already; every frame has one truth",
                   file.string(), table.line(row), frame);
     }

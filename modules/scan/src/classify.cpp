@@ -6,6 +6,8 @@
 // foreach_target comes first.
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -18,9 +20,21 @@ namespace movis::scan::HWY_NAMESPACE {
 
 struct Context {
   const std::vector<IntegerClass>& classes;
-  std::uint8_t chroma_min;  // the least of all classes
-  std::vector<Hit>& hits;
+  std::vector<Stretch>& stretches;
 };
+
+// A stretch that goes on where the last one ended is part of it.
+HWY_INLINE void append(std::vector<Stretch>& stretches, int row, int begin, int end, ObjectClass object) {
+  if (!stretches.empty()) {
+    Stretch& last = stretches.back();
+    if (last.end == begin && last.row == row && last.object == object) {
+      last.end = static_cast<std::uint16_t>(end);
+      return;
+    }
+  }
+  stretches.push_back(
+      {static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end), object});
+}
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -29,11 +43,11 @@ constexpr int vector_lanes() {
 }
 
 template <PixelFormat format>
-void classify_vector(const std::uint8_t* pixels, int u, int v, std::size_t /*count*/, const Context& context) {
+void classify_vector(const std::uint8_t* pixels, int u, int v, std::size_t /*skipped*/, const Context& context) {
   constexpr int kRed = format == PixelFormat::bgr8 ? 2 : 0;
   for (const IntegerClass& colour : context.classes) {
     if (!belongs(colour, pixels[kRed], pixels[1], pixels[2 - kRed])) continue;
-    context.hits.push_back({static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v), colour.object});
+    append(context.stretches, v, u, u + 1, colour.object);
     return;
   }
 }
@@ -52,7 +66,7 @@ struct Colour {
 };
 
 template <PixelFormat format>
-Colour load(const std::uint8_t* pixels) {
+HWY_INLINE Colour load(const std::uint8_t* pixels) {
   const Bytes d;
   Colour c{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   if constexpr (format == PixelFormat::rgba8) {
@@ -66,42 +80,56 @@ Colour load(const std::uint8_t* pixels) {
   return c;
 }
 
-// X = R − G and Y = B − G of every other pixel: the even or the odd byte lanes as 16-bit words.
+// X = R − G and Y = B − G of every other pixel: the even or the odd byte lanes as 16-bit words. (Lambdas would not be
+// compiled for the vector target, hence the small functions.)
 struct Opponents {
   WordVector x, y;
 };
 
-Opponents even_opponents(const Colour& c) {
+HWY_INLINE WordVector even_bytes(ByteVector bytes) {
   const Words w;
-  const auto low = hn::Set(w, 0xFF);
-  const auto even = [&](ByteVector bytes) { return hn::And(hn::BitCast(w, bytes), low); };
-  return {hn::Sub(even(c.r), even(c.g)), hn::Sub(even(c.b), even(c.g))};
+  return hn::And(hn::BitCast(w, bytes), hn::Set(w, 0xFF));
 }
 
-Opponents odd_opponents(const Colour& c) {
-  const Words w;
+HWY_INLINE WordVector odd_bytes(ByteVector bytes) {
   const hn::RepartitionToWide<Bytes> unsigned_words;
-  const auto odd = [&](ByteVector bytes) {
-    return hn::BitCast(w, hn::ShiftRight<8>(hn::BitCast(unsigned_words, bytes)));
-  };
-  return {hn::Sub(odd(c.r), odd(c.g)), hn::Sub(odd(c.b), odd(c.g))};
+  return hn::BitCast(Words(), hn::ShiftRight<8>(hn::BitCast(unsigned_words, bytes)));
+}
+
+HWY_INLINE Opponents even_opponents(const Colour& c) {
+  const WordVector g = even_bytes(c.g);
+  return {hn::Sub(even_bytes(c.r), g), hn::Sub(even_bytes(c.b), g)};
+}
+
+HWY_INLINE Opponents odd_opponents(const Colour& c) {
+  const WordVector g = odd_bytes(c.g);
+  return {hn::Sub(odd_bytes(c.r), g), hn::Sub(odd_bytes(c.b), g)};
 }
 
 // Negative words lie outside the hue sector.
-WordVector sector(const IntegerClass& colour, const Opponents& o) {
+HWY_INLINE WordVector sector(const IntegerClass& colour, const Opponents& o) {
   const Words w;
   const auto from = hn::Add(hn::Mul(hn::Set(w, colour.from_x), o.x), hn::Mul(hn::Set(w, colour.from_y), o.y));
   const auto to = hn::Add(hn::Mul(hn::Set(w, colour.to_x), o.x), hn::Mul(hn::Set(w, colour.to_y), o.y));
   return hn::Or(from, to);  // the sign bit of either
 }
 
-ByteMask within(ByteVector value, std::uint8_t min, std::uint8_t max) {
+HWY_INLINE ByteMask within(ByteVector value, std::uint8_t min, std::uint8_t max) {
   const Bytes d;
   return hn::And(hn::Eq(hn::Max(value, hn::Set(d, min)), value), hn::Eq(hn::Min(value, hn::Set(d, max)), value));
 }
 
-ByteMask in_class(const IntegerClass& colour, ByteVector chroma, ByteVector brightness, const Opponents& even,
-                  const Opponents& odd) {
+HWY_INLINE ByteVector channel(const Colour& c, std::uint8_t index) {
+  return index == 0 ? c.r : index == 1 ? c.g : c.b;
+}
+
+HWY_INLINE ByteMask may_belong(const IntegerClass& colour, const Colour& c) {
+  const auto ahead = hn::SaturatedSub(channel(c, colour.lead), channel(c, colour.trail));
+  return within(ahead, colour.lead_min, 255);
+}
+
+HWY_INLINE ByteMask in_class(const IntegerClass& colour, ByteVector chroma, ByteVector brightness,
+                             const Opponents& even, const Opponents& odd) {
   const Words w;
   const hn::ScalableTag<std::int8_t> s;
   // The words' high bytes back to their byte lanes: the even words' into the low bytes.
@@ -114,26 +142,32 @@ ByteMask in_class(const IntegerClass& colour, ByteVector chroma, ByteVector brig
                          within(brightness, colour.brightness_min, colour.brightness_max)));
 }
 
-// Classifies the first `count` of a vector's pixels, the first of which is (u, v).
+// Classifies a vector's pixels, the first of which is (u, v), without the first `skipped` ones.
 template <PixelFormat format>
-HWY_INLINE void classify_vector(const std::uint8_t* pixels, int u, int v, std::size_t count, const Context& context) {
+HWY_INLINE void classify_vector(const std::uint8_t* pixels, int u, int v, std::size_t skipped, const Context& context) {
   const Bytes d;
   const Colour c = load<format>(pixels);
+  bool possible = false;
+  for (const IntegerClass& colour : context.classes) possible |= !hn::AllFalse(d, may_belong(colour, c));
+  if (!possible) return;
   const auto brightness = hn::Max(hn::Max(c.r, c.g), c.b);
   const auto chroma = hn::Sub(brightness, hn::Min(hn::Min(c.r, c.g), c.b));
-  if (hn::AllTrue(d, hn::Lt(chroma, hn::Set(d, context.chroma_min)))) return;
   const Opponents even = even_opponents(c);
   const Opponents odd = odd_opponents(c);
-  auto open = hn::FirstN(d, count);
+  auto open = hn::Not(hn::FirstN(d, skipped));
   for (const IntegerClass& colour : context.classes) {
     const auto mask = hn::And(open, in_class(colour, chroma, brightness, even, odd));
     if (hn::AllFalse(d, mask)) continue;
     open = hn::AndNot(mask, open);
     std::uint64_t bits = 0;
     hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
-    for (; bits != 0; bits &= bits - 1) {
-      const int lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
-      context.hits.push_back({static_cast<std::uint16_t>(u + lane), static_cast<std::uint16_t>(v), colour.object});
+    while (bits != 0) {
+      const int begin = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
+      const std::uint64_t ended = ~(bits >> begin);  // 0 where all 64 lanes belong to the class
+      const int length = ended == 0 ? 64 : static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(ended));
+      append(context.stretches, v, u + begin, u + begin + length, colour.object);
+      const int end = begin + length;
+      bits = end >= 64 ? 0 : bits >> end << end;
     }
   }
 }
@@ -148,25 +182,26 @@ template <PixelFormat format>
 void classify_format(const ImageView& image, const std::vector<Run>& runs, const Context& context) {
   constexpr int kChannels = channels(format);
   const int lanes = vector_lanes();
-  HWY_ALIGN std::uint8_t tail[kChannels * HWY_MAX_BYTES] = {};
   for (const Run& run : runs) {
     const std::uint8_t* row = image.row(run.row);
     int u = run.begin;
-    for (; u + lanes <= run.end; u += lanes) {
-      classify_vector<format>(row + kChannels * u, u, run.row, static_cast<std::size_t>(lanes), context);
-    }
-    if (u < run.end) {  // a vector's load would reach beyond the run, at the end of the image beyond its memory
-      std::memcpy(tail, row + kChannels * u, static_cast<std::size_t>(kChannels) * (run.end - u));
-      classify_vector<format>(tail, u, run.row, static_cast<std::size_t>(run.end - u), context);
+    for (; u + lanes <= run.end; u += lanes) classify_vector<format>(row + kChannels * u, u, run.row, 0, context);
+    if (u == run.end) continue;
+    if (run.end >= lanes) {  // the last vector ends with the run and skips what it shares with the one before
+      const int first = run.end - lanes;
+      classify_vector<format>(row + kChannels * first, first, run.row, static_cast<std::size_t>(u - first), context);
+    } else {  // the row has no room for a vector: a copy, shifted to the vector's end
+      HWY_ALIGN std::uint8_t copy[kChannels * HWY_MAX_BYTES] = {};
+      const int skipped = lanes - (run.end - u);
+      std::memcpy(copy + kChannels * skipped, row + kChannels * u, static_cast<std::size_t>(kChannels) * (run.end - u));
+      classify_vector<format>(copy, u - skipped, run.row, static_cast<std::size_t>(skipped), context);
     }
   }
 }
 
 void classify_image(const ImageView& image, const std::vector<Run>& runs, const std::vector<IntegerClass>& classes,
-                    std::vector<Hit>& hits) {
-  std::uint8_t chroma_min = 255;
-  for (const IntegerClass& colour : classes) chroma_min = std::min(chroma_min, colour.chroma_min);
-  const Context context{classes, chroma_min, hits};
+                    std::vector<Stretch>& stretches) {
+  const Context context{classes, stretches};
   switch (image.format) {
     case PixelFormat::bgr8:
       return classify_format<PixelFormat::bgr8>(image, runs, context);
@@ -188,9 +223,47 @@ namespace movis::scan {
 HWY_EXPORT(classify_image);
 
 void classify(const ImageView& image, const std::vector<Run>& runs, const std::vector<IntegerClass>& classes,
-              std::vector<Hit>& hits) {
-  HWY_DYNAMIC_DISPATCH(classify_image)(image, runs, classes, hits);
+              std::vector<Stretch>& stretches) {
+  HWY_DYNAMIC_DISPATCH(classify_image)(image, runs, classes, stretches);
 }
+
+namespace {
+
+// R, G, B over chroma of a pixel of the given hue, min(R, G, B) being 0: the inverse of colours.h.
+std::array<double, 3> pure_colour(double hue) {
+  const double alpha = std::cos(hue);
+  const double beta = std::sin(hue);
+  std::array<double, 3> rgb{2.0 / 3.0 * alpha, -alpha / 3.0 + beta / std::sqrt(3.0),
+                            -alpha / 3.0 - beta / std::sqrt(3.0)};
+  const auto [least, most] = std::minmax_element(rgb.begin(), rgb.end());
+  const double low = *least;
+  const double chroma = *most - low;
+  for (double& channel : rgb) channel = (channel - low) / chroma;
+  return rgb;
+}
+
+// The two channels whose difference is the largest share of the chroma wherever in the sector the hue lies.
+void set_lead(const ColourClass& colour, IntegerClass& integers) {
+  constexpr int kSteps = 64;
+  constexpr double kRounding = 0.02;  // of the sector's borders, and between the steps
+  double best = 0.0;
+  for (std::uint8_t lead = 0; lead < 3; ++lead) {
+    for (std::uint8_t trail = 0; trail < 3; ++trail) {
+      double share = 1.0;
+      for (int i = 0; i <= kSteps; ++i) {
+        const auto rgb = pure_colour(colour.hue_from + colour.hue_width * i / kSteps);
+        share = std::min(share, rgb[lead] - rgb[trail]);
+      }
+      if (share <= best) continue;
+      best = share;
+      integers.lead = lead;
+      integers.trail = trail;
+    }
+  }
+  integers.lead_min = static_cast<std::uint8_t>(std::max(0.0, (best - kRounding) * integers.chroma_min - 1.0));
+}
+
+}  // namespace
 
 IntegerClass to_integers(const ColourClass& colour) {
   constexpr double kScale = 74.0;
@@ -213,7 +286,18 @@ IntegerClass to_integers(const ColourClass& colour) {
   integers.brightness_min = at_least(colour.brightness_min);
   integers.brightness_max = at_most(colour.brightness_max);
   integers.object = colour.object;
+  set_lead(colour, integers);
   return integers;
+}
+
+std::vector<IntegerClass> detected_classes(const Colours& colours) {
+  std::vector<IntegerClass> classes;
+  for (const ColourClass& colour : colours.classes) {
+    const bool detected = colour.object == ObjectClass::ball || colour.object == ObjectClass::yellow_goal ||
+                          colour.object == ObjectClass::blue_goal;
+    if (detected) classes.push_back(to_integers(colour));
+  }
+  return classes;
 }
 
 }  // namespace movis::scan

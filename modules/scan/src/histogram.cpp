@@ -22,6 +22,21 @@ double adaptive_threshold(const std::vector<std::uint32_t>& counts, const Thresh
   return std::max({options.minimum, median + options.sigmas * std::sqrt(median), options.peak_fraction * peak});
 }
 
+Histograms::Histograms(int bins) : histograms_(kObjectClasses) {
+  for (Histogram& histogram : histograms_) histogram.counts.assign(bins, 0);
+}
+
+void Histograms::fill(const PolarMap& map, const std::vector<Stretch>& stretches, const ThresholdOptions& options) {
+  for (Histogram& histogram : histograms_) std::fill(histogram.counts.begin(), histogram.counts.end(), 0U);
+  for (const Stretch& stretch : stretches) {
+    std::uint32_t* counts = histograms_[static_cast<int>(stretch.object)].counts.data();
+    const std::uint16_t* bin = &map.bin[map.index(stretch.begin, stretch.row)];
+    const std::uint16_t* end = bin + (stretch.end - stretch.begin);
+    for (; bin != end; ++bin) ++counts[*bin];
+  }
+  for (Histogram& histogram : histograms_) histogram.threshold = adaptive_threshold(histogram.counts, options);
+}
+
 void find_segments(const Histogram& histogram, int bridged, std::vector<Segment>& segments) {
   segments.clear();
   const int bins = static_cast<int>(histogram.counts.size());

@@ -7,6 +7,7 @@
 #include "membership.h"
 #include "movis/core/angle.h"
 #include "movis/scan/refine.h"
+#include "spans.h"
 
 namespace movis::scan {
 namespace {
@@ -14,65 +15,27 @@ namespace {
 using Eigen::Vector3d;
 using Span = RefineScratch::Span;
 
-struct Rows {
-  int begin = 0, end = 0;
-};
-
-template <typename Use>
-void for_ball(const PolarMap& map, const std::vector<Hit>& hits, const std::vector<std::uint8_t>& selected, Use use) {
-  for (const Hit& hit : hits) {
-    if (hit.object == ObjectClass::ball && selected[map.bin[map.index(hit.u, hit.v)]] != 0) use(hit);
-  }
-}
-
-// The columns from the first to the last hit in every row.
-Rows collect_spans(const PolarMap& map, const std::vector<Hit>& hits, const std::vector<std::uint8_t>& selected,
-                   std::vector<Span>& spans) {
-  Rows rows;
-  for_ball(map, hits, selected, [&](const Hit& hit) {
-    if (rows.end == 0) rows.begin = rows.end = hit.v;
-    for (; rows.end <= hit.v; ++rows.end) spans[rows.end] = {};  // hits come in memory order
-    Span& span = spans[hit.v];
-    if (span.begin >= span.end) span.begin = hit.u;
-    span.end = hit.u + 1;
-  });
-  return rows;
-}
-
-// Every span united with those of the rows within `border`, and widened by as many columns.
-Rows widen(const std::vector<Span>& spans, Rows rows, int border, int width, int height, std::vector<Span>& widened) {
-  const Rows wide{std::max(0, rows.begin - border), std::min(height, rows.end + border)};
-  for (int v = wide.begin; v < wide.end; ++v) {
-    Span united{width, 0};
-    for (int near = std::max(rows.begin, v - border); near < std::min(rows.end, v + border + 1); ++near) {
-      if (spans[near].begin >= spans[near].end) continue;
-      united.begin = std::min(united.begin, spans[near].begin);
-      united.end = std::max(united.end, spans[near].end);
-    }
-    widened[v] = united.begin < united.end
-                     ? Span{std::max(0, united.begin - border), std::min(width, united.end + border), 0}
-                     : Span{};
-  }
-  return wide;
-}
-
-// The ball's own chromaticity: that of its most saturated fifth, as pixels on its border are mixed.
-Chromaticity ball_chromaticity(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
-                               const std::vector<std::uint8_t>& selected, float dark, std::vector<float>& values) {
+// The ball's own chromaticity: that of its most saturated fifth, as pixels on its border are mixed. A thousand pixels
+// are enough to know it.
+Chromaticity ball_chromaticity(const ImageView& image, const std::vector<ObjectPixel>& object, float dark,
+                               std::vector<float>& values) {
+  constexpr std::size_t kEnough = 1000;
+  const std::size_t step = object.size() / kEnough + 1;
   values.clear();
-  for_ball(map, hits, selected,
-           [&](const Hit& hit) { values.push_back(saturation(chromaticity(light_at(image, hit.u, hit.v), dark))); });
+  for (std::size_t i = 0; i < object.size(); i += step) {
+    values.push_back(saturation(chromaticity(light_at(image, object[i].u, object[i].v), dark)));
+  }
   const auto quantile = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 4 / 5);
   std::nth_element(values.begin(), quantile, values.end());
   const float least = *quantile;
   Chromaticity sum;
   float count = 0.0F;
-  for_ball(map, hits, selected, [&](const Hit& hit) {
-    const Chromaticity c = chromaticity(light_at(image, hit.u, hit.v), dark);
-    if (saturation(c) < least) return;
+  for (std::size_t i = 0; i < object.size(); i += step) {
+    const Chromaticity c = chromaticity(light_at(image, object[i].u, object[i].v), dark);
+    if (saturation(c) < least) continue;
     sum = sum + c;
     count += 1.0F;
-  });
+  }
   return sum * (1.0F / count);
 }
 
@@ -281,14 +244,14 @@ RefineScratch::RefineScratch(int image_width, int image_height) : spans(image_he
   outline.reserve(kSamples);
 }
 
-bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
-                 const std::vector<std::uint8_t>& selected, const RefineOptions& options, RefineScratch& scratch,
-                 Bearing& bearing) {
-  const Rows own = collect_spans(map, hits, selected, scratch.spans);
-  if (own.begin >= own.end) return false;
-  const Rows rows = widen(scratch.spans, own, options.border_px, map.width, map.height, scratch.widened);
+bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<ObjectPixel>& object,
+                 const RefineOptions& options, RefineScratch& scratch, Bearing& bearing) {
+  if (object.empty()) return false;
   const auto dark = static_cast<float>(options.dark);
-  const Chromaticity inside = ball_chromaticity(image, map, hits, selected, dark, scratch.values);
+  const Chromaticity inside = ball_chromaticity(image, object, dark, scratch.values);
+  const Rows own = collect_spans(
+      object, [](const ObjectPixel&) { return true; }, scratch.spans);
+  const Rows rows = widen(scratch.spans, own, options.border_px, map.width, map.height, scratch.widened);
   fill_memberships(image, scratch.widened, rows, inside, dark, scratch.memberships);
   const Moments moments = collect_moments(image, map, scratch, rows);
   if (!(moments.weight > 0.0) || !(moments.sum.norm() > 0.0)) return false;

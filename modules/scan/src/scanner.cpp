@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
@@ -11,16 +12,7 @@ namespace {
 
 constexpr ObjectClass kDetected[] = {ObjectClass::ball, ObjectClass::yellow_goal, ObjectClass::blue_goal};
 constexpr std::size_t kMaxSegments = 64;
-
-std::vector<IntegerClass> detected_classes(const Colours& colours) {
-  std::vector<IntegerClass> classes;
-  for (const ColourClass& colour : colours.classes) {
-    if (std::find(std::begin(kDetected), std::end(kDetected), colour.object) != std::end(kDetected)) {
-      classes.push_back(to_integers(colour));
-    }
-  }
-  return classes;
-}
+constexpr std::int16_t kElsewhere = std::numeric_limits<std::int16_t>::min();
 
 }  // namespace
 
@@ -31,21 +23,17 @@ Scanner::Scanner(const omni::Rig& rig, int camera, const Colours& colours, const
       map_(make_polar_map(camera_, options.bins, radians(options.min_elevation_deg),
                           radians(options.max_elevation_deg))),
       classes_(detected_classes(colours)),
-      histograms_(kObjectClasses),
-      selected_(options.bins),
+      histograms_(options.bins),
+      places_(options.bins),
       scratch_(camera_.width, camera_.height) {
   for (int other = 0; other < static_cast<int>(rig.cameras.size()); ++other) {
     const Eigen::Vector2d towards = (rig.cameras[other].position - camera_.position).head<2>();
     if (other == camera || towards.norm() <= options.sensor_radius) continue;  // itself, or one above the other
     sensors_.push_back({std::atan2(towards.y(), towards.x()), std::asin(options.sensor_radius / towards.norm())});
   }
-  hits_.reserve(map_.scanned_pixels());
+  stretches_.reserve(map_.scanned_pixels());
   segments_.reserve(kMaxSegments);
-  for (Histogram& histogram : histograms_) histogram.counts.assign(options.bins, 0);
-}
-
-const Histogram& Scanner::histogram(ObjectClass object) const {
-  return histograms_[static_cast<int>(object)];
+  object_.reserve(map_.scanned_pixels());
 }
 
 void Scanner::check(const ImageView& image) const {
@@ -61,9 +49,9 @@ void Scanner::check(const ImageView& image) const {
 
 void Scanner::scan(const ImageView& image, double time_s, std::vector<Bearing>& bearings) {
   check(image);
-  hits_.clear();
-  classify(image, map_.runs, classes_, hits_);
-  fill_histograms();
+  stretches_.clear();
+  classify(image, map_.runs, classes_, stretches_);
+  histograms_.fill(map_, stretches_, options_.threshold);
   for (const ObjectClass object : kDetected) {
     Bearing bearing;
     bearing.camera = camera_index_;
@@ -73,39 +61,46 @@ void Scanner::scan(const ImageView& image, double time_s, std::vector<Bearing>& 
   }
 }
 
-void Scanner::fill_histograms() {
-  for (const ObjectClass object : kDetected) {
-    auto& counts = histograms_[static_cast<int>(object)].counts;
-    std::fill(counts.begin(), counts.end(), 0U);
-  }
-  for (const Hit& hit : hits_) {
-    ++histograms_[static_cast<int>(hit.object)].counts[map_.bin[map_.index(hit.u, hit.v)]];
-  }
-  for (const ObjectClass object : kDetected) {
-    Histogram& histogram = histograms_[static_cast<int>(object)];
-    histogram.threshold = adaptive_threshold(histogram.counts, options_.threshold);
-  }
-}
-
 bool Scanner::find_object(ObjectClass object, Bearing& bearing, const ImageView& image) {
   const bool ball = object == ObjectClass::ball;
   const double gap_deg = ball ? options_.ball_gap_deg : options_.goal_gap_deg;
-  find_segments(histogram(object), static_cast<int>(std::lround(gap_deg / 360.0 * options_.bins)), segments_);
+  find_segments(histograms_[object], static_cast<int>(std::lround(gap_deg / 360.0 * options_.bins)), segments_);
   const auto largest = std::max_element(segments_.begin(), segments_.end(),
                                         [](const Segment& a, const Segment& b) { return a.pixels < b.pixels; });
   if (largest == segments_.end() || largest->pixels < static_cast<std::uint64_t>(options_.min_object_pixels)) {
     return false;
   }
-  // One bin more on either side: the object's border pixels may lie in bins below the threshold.
-  std::fill(selected_.begin(), selected_.end(), std::uint8_t{0});
-  for (int i = -1; i <= largest->length; ++i) {
-    selected_[(largest->first + i + options_.bins) % options_.bins] = 1;
-  }
-  const bool found = ball ? refine_ball(image, map_, hits_, selected_, options_.refine, scratch_, bearing)
-                          : refine_goal(image, map_, hits_, selected_, largest->first, largest->length, options_.refine,
-                                        scratch_, bearing);
+  collect_object(object, *largest);
+  const bool found = ball ? refine_ball(image, map_, object_, options_.refine, scratch_, bearing)
+                          : refine_goal(image, map_, object_, *largest, options_.refine, scratch_, bearing);
   if (found) flag_sensors(bearing);
   return found;
+}
+
+// Every pixel of a ball, and of a goal those near its edges and a few of the others: they tell its colour and height.
+void Scanner::collect_object(ObjectClass object, const Segment& segment) {
+  constexpr double kMarginDeg = 3.5;
+  constexpr unsigned kOneIn = 16;
+  const int margin =
+      object == ObjectClass::ball ? segment.length : static_cast<int>(kMarginDeg / 360.0 * options_.bins);
+  std::fill(places_.begin(), places_.end(), kElsewhere);
+  // One bin more on either side: the object's border pixels may lie in bins below the threshold.
+  for (int place = -1; place <= segment.length; ++place) {
+    places_[(segment.first + place + options_.bins) % options_.bins] = static_cast<std::int16_t>(place);
+  }
+  object_.clear();
+  unsigned count = 0;
+  for (const Stretch& stretch : stretches_) {
+    if (stretch.object != object) continue;
+    const std::size_t row = map_.index(0, stretch.row);
+    for (std::uint16_t u = stretch.begin; u < stretch.end; ++u) {
+      const std::int16_t place = places_[map_.bin[row + u]];
+      if (place == kElsewhere) continue;
+      const bool near_edge = place < margin || place >= segment.length - margin;
+      if (!near_edge && ++count % kOneIn != 0) continue;
+      object_.push_back({u, stretch.row, place, map_.ray[row + u].z});
+    }
+  }
 }
 
 // A ball is disturbed by a sensor unit anywhere before it, a goal by one before its edges.

@@ -10,10 +10,11 @@
 
 namespace movis::scan {
 
-// A pixel that belongs to a colour class.
-struct Hit {
-  std::uint16_t u = 0;
-  std::uint16_t v = 0;
+// A stretch of a row whose pixels all belong to one colour class: columns [begin, end).
+struct Stretch {
+  std::uint16_t row = 0;
+  std::uint16_t begin = 0;
+  std::uint16_t end = 0;
   ObjectClass object = ObjectClass::ball;
 };
 
@@ -25,6 +26,10 @@ struct IntegerClass {
   std::uint8_t chroma_min = 0, chroma_max = 255;
   std::uint8_t brightness_min = 0, brightness_max = 255;
   ObjectClass object = ObjectClass::ball;
+
+  // Every pixel of the class has channel `lead` at least `lead_min` above channel `trail` (0, 1, 2: R, G, B). Most
+  // vectors of pixels fail this cheap test in every lane and are done.
+  std::uint8_t lead = 0, trail = 0, lead_min = 0;
 };
 
 IntegerClass to_integers(const ColourClass& colour);
@@ -39,9 +44,12 @@ inline bool belongs(const IntegerClass& colour, std::uint8_t r, std::uint8_t g, 
          brightness <= colour.brightness_max;
 }
 
-// Appends every scanned pixel that belongs to a class, in memory order; of overlapping classes the first counts.
-// Vectorized for whatever the processor has. `hits` must have room for every scanned pixel. BGR8, RGB8 and RGBA8.
+// Of the classes that the scan detects, ball and goals, those that stand in `colours`.
+std::vector<IntegerClass> detected_classes(const Colours& colours);
+
+// Appends the stretches of scanned pixels that belong to a class; of overlapping classes the first counts. Stretches of
+// one class come in memory order. Vectorized for whatever the processor has. BGR8, RGB8 and RGBA8; an Error otherwise.
 void classify(const ImageView& image, const std::vector<Run>& runs, const std::vector<IntegerClass>& classes,
-              std::vector<Hit>& hits);
+              std::vector<Stretch>& stretches);
 
 }  // namespace movis::scan

@@ -3,6 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "movis/core/bearing.h"
+#include "movis/scan/classify.h"
+#include "movis/scan/polar_map.h"
+
 namespace movis::scan {
 
 // Extracted pixels over azimuth, the paper's Fig. 4 (§2.3). Bin i covers azimuths [−π + i·w, −π + (i+1)·w) in the
@@ -22,6 +26,19 @@ struct ThresholdOptions {
 // is noise, with the median m of the bins as its level and √m as its spread (Poisson); an object stands out from it
 // and is not a small part of the fullest bin:  max(minimum, m + sigmas √m, peak_fraction · peak).
 double adaptive_threshold(const std::vector<std::uint32_t>& counts, const ThresholdOptions& options);
+
+// One histogram for each object class.
+class Histograms {
+ public:
+  explicit Histograms(int bins);
+
+  // Counts the stretches' pixels by class and bin, and sets the thresholds.
+  void fill(const PolarMap& map, const std::vector<Stretch>& stretches, const ThresholdOptions& options = {});
+  const Histogram& operator[](ObjectClass object) const { return histograms_[static_cast<int>(object)]; }
+
+ private:
+  std::vector<Histogram> histograms_;
+};
 
 // A run of bins at or above the threshold, [first, first + length) modulo the number of bins.
 struct Segment {

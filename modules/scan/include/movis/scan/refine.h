@@ -7,7 +7,7 @@
 #include "movis/core/bearing.h"
 #include "movis/core/image_view.h"
 #include "movis/core/yaml.h"
-#include "movis/scan/classify.h"
+#include "movis/scan/histogram.h"
 #include "movis/scan/polar_map.h"
 
 namespace movis::scan {
@@ -47,7 +47,7 @@ struct RefineScratch {
   };
   struct Sample {
     float offset;  // azimuth from the coarse edge towards the inside, radians
-    float size;    // the azimuth that the pixel covers, radians
+    float scale;   // 1 / the azimuth that the pixel covers, 1/radians
     float membership;
   };
   std::vector<Span> spans, widened;  // by image row
@@ -58,15 +58,19 @@ struct RefineScratch {
   RefineScratch(int image_width, int image_height);
 };
 
-// `selected` says for every azimuth bin whether hits in it belong to the object. The bearing's camera, object and time
-// are kept; the rest is filled in. False where too little of the object is left.
-bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
-                 const std::vector<std::uint8_t>& selected, const RefineOptions& options, RefineScratch& scratch,
-                 Bearing& bearing);
+// A pixel of the object's colour in its segment of the histogram.
+struct ObjectPixel {
+  std::uint16_t u, v;
+  std::int16_t place;  // of its bin in the segment: 0 is the right end
+  float z;             // of its ray
+};
 
-// `first_bin` is the right end of the goal's segment, `bins` its length.
-bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<Hit>& hits,
-                 const std::vector<std::uint8_t>& selected, int first_bin, int bins, const RefineOptions& options,
-                 RefineScratch& scratch, Bearing& bearing);
+// `object` holds the pixels in memory order: all of a ball, of a goal those near its edges and a sample of the others.
+// The bearing's camera, object and time are kept; the rest is filled in. False where too little of the object is left.
+bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<ObjectPixel>& object,
+                 const RefineOptions& options, RefineScratch& scratch, Bearing& bearing);
+
+bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<ObjectPixel>& object,
+                 const Segment& segment, const RefineOptions& options, RefineScratch& scratch, Bearing& bearing);
 
 }  // namespace movis::scan

@@ -36,34 +36,40 @@ class Scanner {
  public:
   Scanner(const omni::Rig& rig, int camera, const Colours& colours, const ScanOptions& options);
 
+  Scanner(Scanner&&) = default;
+  Scanner& operator=(Scanner&&) = default;
+  Scanner(const Scanner&) = delete;  // a copy would lose the memory that scan() relies on
+  Scanner& operator=(const Scanner&) = delete;
+
   // Appends the bearings of what this camera sees, at most one for each class. Throws an Error where the image has
   // another size or format than the rig says.
   void scan(const ImageView& image, double time_s, std::vector<Bearing>& bearings);
 
   // Of the last scan.
-  const Histogram& histogram(ObjectClass object) const;
+  const Histogram& histogram(ObjectClass object) const { return histograms_[object]; }
   const PolarMap& polar_map() const { return map_; }
 
  private:
   void check(const ImageView& image) const;
-  void fill_histograms();
   bool find_object(ObjectClass object, Bearing& bearing, const ImageView& image);
+  void collect_object(ObjectClass object, const Segment& segment);
   void flag_sensors(Bearing& bearing) const;
 
-  const omni::Camera camera_;
-  const int camera_index_;
-  const ScanOptions options_;
-  const PolarMap map_;
-  const std::vector<IntegerClass> classes_;
+  omni::Camera camera_;
+  int camera_index_;
+  ScanOptions options_;
+  PolarMap map_;
+  std::vector<IntegerClass> classes_;
   struct Sector {
     double azimuth = 0.0;
     double half_width = 0.0;
   };
   std::vector<Sector> sensors_;  // azimuths in which other sensor units stand
-  std::vector<Hit> hits_;
-  std::vector<Histogram> histograms_;  // by object class
+  std::vector<Stretch> stretches_;
+  Histograms histograms_;
   std::vector<Segment> segments_;
-  std::vector<std::uint8_t> selected_;  // by bin: does it belong to the object at hand?
+  std::vector<std::int16_t> places_;  // by bin: its place in the segment at hand, or kElsewhere
+  std::vector<ObjectPixel> object_;   // its pixels
   RefineScratch scratch_;
 };
 
