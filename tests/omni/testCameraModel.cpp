@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <ostream>
 
 #include "movis/core/angle.h"
 #include "movis/omni/camera_model.h"
@@ -43,6 +44,8 @@ struct Case {
   const char* label;
   CameraModel model;
 };
+
+void PrintTo(const Case& tested, std::ostream* stream) { *stream << tested.label; }  // NOLINT: GoogleTest's name
 
 class EveryModel : public testing::TestWithParam<Case> {
  protected:

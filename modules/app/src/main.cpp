@@ -3,6 +3,7 @@
 #include <exception>
 #include <string>
 
+#include "demo_command.h"
 #include "movis/localization/localizer.h"
 #include "track_command.h"
 
@@ -36,12 +37,20 @@ void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
   track->callback([&arguments] { movis::app::track(arguments); });
 }
 
+void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
+  CLI::App* demo = program.add_subcommand("demo", "Track the shipped images and write one HTML page about it");
+  demo->add_option("--out", arguments.out, "The page")->capture_default_str();
+  demo->callback([&arguments] { movis::app::demo(arguments); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App program("MOVIS: omnidirectional vision and visual servoing of mobile robots");
   program.set_version_flag("--version", "movis " MOVIS_VERSION);
   program.require_subcommand(1);
+  movis::app::DemoArguments demo_arguments;
+  add_demo(program, demo_arguments);
   movis::app::TrackArguments track_arguments;
   add_track(program, track_arguments);
   try {

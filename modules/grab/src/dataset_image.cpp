@@ -27,9 +27,8 @@ std::size_t big_endian(const Bytes& bytes, std::size_t at, std::size_t count) {
 // Walks from chunk to chunk (length, type, data, checksum) until IEND; bytes after it are no harm.
 bool png_is_complete(const Bytes& bytes) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
-    const std::size_t next = at + 12 + big_endian(bytes, at, 4);
-    if (std::string_view(reinterpret_cast<const char*>(&bytes[at + 4]), 4) == "IEND") return next <= bytes.size();
-    at = next;
+    if (std::string_view(reinterpret_cast<const char*>(&bytes[at + 4]), 4) == "IEND") return true;
+    at += 12 + big_endian(bytes, at, 4);
   }
   return false;
 }

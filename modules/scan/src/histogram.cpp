@@ -52,15 +52,16 @@ void find_segments(const Histogram& histogram, int bridged, std::vector<Segment>
   int start = -1;
   int gap = 0;
   for (int i = 0; i < 2 * bins && start < 0; ++i) {
-    gap = filled(i % bins) ? 0 : gap + 1;
-    if (gap > bridged) start = (i + 1) % bins;
+    const int bin = i < bins ? i : i - bins;
+    gap = filled(bin) ? 0 : gap + 1;
+    if (gap > bridged) start = bin + 1 < bins ? bin + 1 : 0;
   }
   if (start < 0) start = 0;  // all around
 
   Segment current;
   gap = 0;
   for (int i = 0; i < bins; ++i) {
-    const int bin = (start + i) % bins;
+    const int bin = start + i < bins ? start + i : start + i - bins;
     if (!filled(bin)) {
       ++gap;
       continue;

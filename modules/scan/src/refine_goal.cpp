@@ -108,7 +108,9 @@ void collect_samples(const ImageView& image, const PolarMap& map, const Goal& go
       const float across = inwards * (ray.y * cos_edge - ray.x * sin_edge);
       if (along <= 0.0F || std::abs(across) > window * along) continue;
       if (scratch.samples.size() == scratch.samples.capacity()) return;
-      scratch.samples.push_back({std::atan(across / along), 1.0F / azimuth_size(ray),
+      const float tangent = across / along;
+      const float offset = tangent * (1.0F - tangent * tangent * (1.0F / 3.0F - 0.2F * tangent * tangent));  // atan
+      scratch.samples.push_back({offset, 1.0F / azimuth_size(ray),
                                  dot(chromaticity(light_at(image, u, v), goal.dark), goal.hue)});
     }
   }

@@ -80,7 +80,7 @@ bool Scanner::find_object(ObjectClass object, Bearing& bearing, const ImageView&
 // Every pixel of a ball, and of a goal those near its edges and a few of the others: they tell its colour and height.
 void Scanner::collect_object(ObjectClass object, const Segment& segment) {
   constexpr double kMarginDeg = 3.5;
-  constexpr unsigned kOneIn = 16;
+  constexpr int kOneIn = 16;
   const int margin =
       object == ObjectClass::ball ? segment.length : static_cast<int>(kMarginDeg / 360.0 * options_.bins);
   std::fill(places_.begin(), places_.end(), kElsewhere);
@@ -88,17 +88,19 @@ void Scanner::collect_object(ObjectClass object, const Segment& segment) {
   for (int place = -1; place <= segment.length; ++place) {
     places_[(segment.first + place + options_.bins) % options_.bins] = static_cast<std::int16_t>(place);
   }
+  const auto inside = [&](std::int16_t place) { return place >= margin && place < segment.length - margin; };
   object_.clear();
-  unsigned count = 0;
   for (const Stretch& stretch : stretches_) {
     if (stretch.object != object) continue;
     const std::size_t row = map_.index(0, stretch.row);
-    for (std::uint16_t u = stretch.begin; u < stretch.end; ++u) {
-      const std::int16_t place = places_[map_.bin[row + u]];
-      if (place == kElsewhere) continue;
-      const bool near_edge = place < margin || place >= segment.length - margin;
-      if (!near_edge && ++count % kOneIn != 0) continue;
-      object_.push_back({u, stretch.row, place, map_.ray[row + u].z});
+    const auto place_at = [&](int u) { return places_[map_.bin[row + u]]; };
+    // The azimuth turns one way along a stretch: what begins and ends inside lies inside.
+    const bool all_inside = inside(place_at(stretch.begin)) && inside(place_at(stretch.end - 1));
+    const int step = all_inside ? kOneIn : 1;
+    for (int u = stretch.begin; u < stretch.end; u += step) {
+      const std::int16_t place = place_at(u);
+      if (place == kElsewhere || (inside(place) && u % kOneIn != 0 && !all_inside)) continue;
+      object_.push_back({static_cast<std::uint16_t>(u), stretch.row, place, map_.ray[row + u].z});
     }
   }
 }

@@ -1,0 +1,184 @@
+// `movis track` as a user runs it: its file, its exit codes, and what it says about bad input.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "movis/core/csv.h"
+#include "movis/core/paths.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace movis {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A copy of the shipped data set `field` that a test may damage, and `movis track` on it.
+class Track : public testing::Test {
+ protected:
+  Track() { fs::copy(data_file("images/field"), data_, fs::copy_options::recursive); }
+
+  test::ProgramRun track(const std::string& more = "") const {
+    return test::run_program(std::string(MOVIS_PROGRAM) + " track --data " + data_.string() + " --out " +
+                             out_.string() + " " + more);
+  }
+
+  void replace(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = read_text(data_ / file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream(data_ / file, std::ios::binary) << text.replace(at, from.size(), to);
+  }
+
+  void truncate(const std::string& file) const { fs::resize_file(data_ / file, fs::file_size(data_ / file) / 2); }
+
+  // Exit code 1, every part in the message, and no file left behind.
+  void expect_failure(std::initializer_list<const char*> parts, const std::string& more = "", int exit_code = 1) const {
+    const test::ProgramRun run = track(more);
+    EXPECT_EQ(run.exit_code, exit_code) << run.output;
+    for (const char* part : parts) EXPECT_NE(run.output.find(part), std::string::npos) << part << "\n" << run.output;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) EXPECT_EQ(entry.path(), data_);
+  }
+
+  const test::TemporaryFolder folder_;
+  const fs::path data_ = folder_.path() / "set";
+  const fs::path out_ = folder_.path() / "est.csv";
+};
+
+TEST_F(Track, WritesOneRowASet) {
+  const test::ProgramRun run = track();
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find("ball: 5 of 5 found"), std::string::npos) << run.output;
+  const CsvTable table = CsvTable::read(out_);
+  ASSERT_EQ(table.rows(), 5U);
+  std::string header;
+  for (const std::string& column : table.header()) header += (header.empty() ? "" : ",") + column;
+  EXPECT_EQ(header,
+            "frame,time_s,ball_status,ball_x_r,ball_y_r,ball_z_r,ball_cov_xx,ball_cov_xy,ball_cov_yy,pose_status,"
+            "robot_x,robot_y,robot_beta,pose_cov_xx,pose_cov_xy,pose_cov_xb,pose_cov_yy,pose_cov_yb,pose_cov_bb,"
+            "ball_x,ball_y,ball_vx,ball_vy,tick_us");
+  EXPECT_EQ(table.integer(4, table.column("frame")), 26);
+  EXPECT_EQ(table.text(0, table.column("ball_status")), "ok");
+  EXPECT_NEAR(table.number(0, table.column("robot_x")), -1.039, 0.1);  // truth.csv
+  EXPECT_NEAR(table.number(0, table.column("ball_x")), -1.428, 0.1);
+}
+
+TEST_F(Track, SameInputSameRows) {
+  const auto rows_without_times = [&] {
+    std::string rows;
+    std::istringstream stream(read_text(out_));
+    for (std::string line; std::getline(stream, line);) rows += line.substr(0, line.rfind(',')) + "\n";
+    return rows;
+  };
+  ASSERT_EQ(track().exit_code, 0);
+  const std::string first = rows_without_times();
+  ASSERT_EQ(track().exit_code, 0);
+  EXPECT_EQ(first, rows_without_times());
+}
+
+TEST_F(Track, LostImageTheOtherCamerasGoOn) {
+  replace("frames.csv", "images/000000_M2.png", "");
+  ASSERT_EQ(track().exit_code, 0);
+  const CsvTable table = CsvTable::read(out_);
+  EXPECT_EQ(table.text(0, table.column("ball_status")), "ok");
+}
+
+TEST_F(Track, AllImagesOfASetLost) {
+  replace("frames.csv", "images/000000_M1.png,images/000000_M2.png,images/000000_M3.png", ",,");
+  ASSERT_EQ(track().exit_code, 0);
+  const CsvTable table = CsvTable::read(out_);
+  ASSERT_EQ(table.rows(), 5U);
+  EXPECT_EQ(table.text(0, table.column("ball_status")), "not_seen");
+  EXPECT_EQ(table.text(0, table.column("pose_status")), "no_goal");
+  for (const char* column : {"ball_x_r", "ball_cov_yy", "robot_x", "pose_cov_bb", "ball_x"}) {
+    EXPECT_EQ(table.text(0, table.column(column)), "") << column;  // numbers are written only with ok
+  }
+}
+
+TEST_F(Track, EveryLocalizer) {
+  for (const char* localizer : {"method1", "method2", "composed"}) {
+    EXPECT_EQ(track(std::string("--localizer ") + localizer).exit_code, 0) << localizer;
+  }
+}
+
+TEST_F(Track, CutOffPng) {
+  truncate("images/000004_M2.png");
+  expect_failure({"frames.csv:3", "'M2'", "000004_M2.png", "cut off"});
+}
+
+TEST_F(Track, CutOffJpeg) {
+  ASSERT_EQ(test::run_program("printf '\\377\\330\\377\\340aaaaaaaaaaaaaaaa' > " +
+                              (data_ / "images/000004_M2.png").string())
+                .exit_code,
+            0);
+  expect_failure({"frames.csv:3", "'M2'", "000004_M2.png", "cut off"});
+}
+
+TEST_F(Track, MissingImage) {
+  fs::remove(data_ / "images/000026_M3.png");
+  expect_failure({"frames.csv:6", "'M3'", "000026_M3.png"});
+}
+
+TEST_F(Track, UnknownKey) {
+  replace("rig.yaml", "yaw_deg", "yaw_degrees");
+  expect_failure({"rig.yaml:", "yaw_degrees", "yaw_deg"});
+}
+
+TEST_F(Track, MissingKey) {
+  replace("field.yaml", "Fw: 0.5\n", "");
+  expect_failure({"field.yaml:", "'Fw'", "missing"});
+}
+
+TEST_F(Track, MirrorWithoutExtent) {
+  replace("rig.yaml", "a: 0.028095", "a: 0");
+  expect_failure({"rig.yaml:", "hyperboloid.a", "out of range"});
+}
+
+TEST_F(Track, ImageOfAnotherSize) {
+  replace("rig.yaml", "width: 640", "width: 320");
+  expect_failure({"frames.csv:2", "'M1'", "640", "320"});
+}
+
+TEST_F(Track, EmptyFramesTable) {
+  std::ofstream(data_ / "frames.csv", std::ios::trunc).close();
+  expect_failure({"frames.csv", "empty"});
+  std::ofstream(data_ / "frames.csv") << "frame,time_s,M1,M2,M3\n";
+  expect_failure({"frames.csv", "no"});
+}
+
+TEST_F(Track, NoDataSet) {
+  fs::remove(data_ / "frames.csv");
+  expect_failure({"is not a data set", "frames.csv"});
+}
+
+TEST_F(Track, OneCamera) {
+  std::string rig = read_text(data_ / "rig.yaml");
+  std::ofstream(data_ / "rig.yaml") << rig.substr(0, rig.find("- name: M2"));
+  std::ofstream(data_ / "frames.csv") << "frame,time_s,M1\n0,0,images/000000_M1.png\n";
+  expect_failure({"two or more cameras"});
+}
+
+TEST_F(Track, OutputFolderThatIsAbsent) {
+  const test::ProgramRun run = test::run_program(std::string(MOVIS_PROGRAM) + " track --data " + data_.string() +
+                                                 " --out " + (folder_.path() / "absent/est.csv").string());
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.output.find("does not exist"), std::string::npos) << run.output;
+}
+
+TEST_F(Track, WrongArguments) {
+  expect_failure({"--localizer", "guess"}, "--localizer guess", 2);
+  expect_failure({"--speed"}, "--speed 3", 2);
+  EXPECT_EQ(test::run_program(std::string(MOVIS_PROGRAM)).exit_code, 2);
+  EXPECT_EQ(test::run_program(std::string(MOVIS_PROGRAM) + " --help").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace movis
