@@ -23,6 +23,9 @@ inline Light light_at(const ImageView& image, int u, int v) {
   return {linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]};
 }
 
+// Linear light below which something is black: the robots' bodies.
+inline constexpr float kBlack = 0.035F;
+
 inline float brightness(const Light& light) {
   return std::max({light.r, light.g, light.b});
 }

@@ -78,8 +78,6 @@ void fill_memberships(const ImageView& image, std::vector<Span>& spans, Rows row
   }
 }
 
-constexpr float kDark = 0.035F;  // linear light: the robots' own black
-
 struct Moments {
   Vector3d sum = Vector3d::Zero();  // Σ w Ω r
   double covered = 0.0;             // Σ w Ω
@@ -106,7 +104,7 @@ Moments collect_moments(const ImageView& image, const PolarMap& map, const Refin
       moments.weight += w;
       if (w < kNotTheBall) {
         ++moments.around;
-        if (brightness(light_at(image, u, v)) < kDark) ++moments.dark;
+        if (brightness(light_at(image, u, v)) < kBlack) ++moments.dark;
       }
     }
   }
@@ -116,7 +114,7 @@ Moments collect_moments(const ImageView& image, const PolarMap& map, const Refin
 // The points of the outline, finer than a pixel: where the membership passes ½ between neighbours. Left out are those
 // at which the ball ends at something black, which hides the rest of it.
 void collect_outline(const ImageView& image, const PolarMap& map, Rows rows, RefineScratch& scratch) {
-  const auto black = [&](int u, int v) { return map.contains(u, v) && brightness(light_at(image, u, v)) < kDark; };
+  const auto black = [&](int u, int v) { return map.contains(u, v) && brightness(light_at(image, u, v)) < kBlack; };
   const auto membership_at = [&](int u, int v) {
     const Span& span = scratch.widened[v];
     return scratch.memberships[span.first + static_cast<std::size_t>(u - span.begin)];

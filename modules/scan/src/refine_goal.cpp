@@ -110,10 +110,23 @@ void collect_samples(const ImageView& image, const PolarMap& map, const Goal& go
       if (scratch.samples.size() == scratch.samples.capacity()) return;
       const float tangent = across / along;
       const float offset = tangent * (1.0F - tangent * tangent * (1.0F / 3.0F - 0.2F * tangent * tangent));  // atan
-      scratch.samples.push_back({offset, 1.0F / azimuth_size(ray),
-                                 dot(chromaticity(light_at(image, u, v), goal.dark), goal.hue)});
+      const Light light = light_at(image, u, v);
+      scratch.samples.push_back(
+          {offset, 1.0F / azimuth_size(ray), dot(chromaticity(light, goal.dark), goal.hue), brightness(light)});
     }
   }
+}
+
+// Is it mostly black just outside the edge?
+bool ends_at_black(const std::vector<Sample>& samples, double window) {
+  int outer = 0;
+  int black = 0;
+  for (const Sample& sample : samples) {
+    if (sample.offset > -0.5 * window) continue;
+    ++outer;
+    if (sample.brightness < kBlack) ++black;
+  }
+  return 2 * black > outer;
 }
 
 // Saturation to membership by its means at the window's two ends. False where the two do not differ.
@@ -142,8 +155,9 @@ bool normalize(std::vector<Sample>& samples, double window) {
 }
 
 struct Crossing {
-  double offset;    // from the coarse edge, inwards
-  double variance;  // rad²
+  double offset = 0.0;    // from the coarse edge, inwards
+  double variance = 0.0;  // rad²
+  bool hidden = false;    // something else ends there, the edge lies behind it
 };
 
 // The step position at which Σ w = Σ S: Newton's method within a bracket, as Σ S falls with the position in straight
@@ -176,7 +190,7 @@ std::optional<Crossing> solve_step(const std::vector<Sample>& samples, double wi
     if (std::abs(edge) > 0.9 * window) return std::nullopt;
     // Each of the rows that cross the edge places it to pixel_sigma; slope / scale is about their number.
     const double scale = samples.front().scale;
-    return Crossing{edge, pixel_sigma * pixel_sigma / (scale * scale) / std::max(1.0, slope / scale)};
+    return Crossing{edge, pixel_sigma * pixel_sigma / (scale * scale) / std::max(1.0, slope / scale), false};
   }
   return std::nullopt;
 }
@@ -188,7 +202,9 @@ std::optional<Crossing> refine_edge(const ImageView& image, const PolarMap& map,
   if (!region) return std::nullopt;
   collect_samples(image, map, goal, edge, *region, scratch);
   if (!normalize(scratch.samples, region->window)) return std::nullopt;
-  return solve_step(scratch.samples, region->window, options.pixel_sigma);
+  auto crossing = solve_step(scratch.samples, region->window, options.pixel_sigma);
+  if (crossing) crossing->hidden = ends_at_black(scratch.samples, region->window);
+  return crossing;
 }
 
 }  // namespace
@@ -200,12 +216,15 @@ bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<
   const double bin = 2.0 * kPi / map.bins;
   const Edge right{0, +1, -kPi + segment.first * bin};
   const Edge left{segment.length - 1, -1, -kPi + (segment.first + segment.length) * bin};
-  // An edge that something hides is known to a bin only.
-  const Crossing coarse{0.0, bin * bin};
   const auto crossing_at = [&](const Edge& edge) {
-    const auto crossing = refine_edge(image, map, object, goal, edge, segment.length, options, scratch);
-    if (!crossing) bearing.flags |= kCutByObject;
-    return crossing.value_or(coarse);
+    const auto found = refine_edge(image, map, object, goal, edge, segment.length, options, scratch);
+    if (!found) bearing.flags |= kCutByObject;
+    Crossing crossing = found.value_or(Crossing{0.0, bin * bin, false});
+    if (crossing.hidden) {
+      bearing.flags |= kCutByObject;
+      crossing.variance = std::max(crossing.variance, std::pow(0.5 * segment.length * bin, 2));
+    }
+    return crossing;
   };
   const Crossing at_right = crossing_at(right);
   const Crossing at_left = crossing_at(left);
