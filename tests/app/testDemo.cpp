@@ -25,7 +25,8 @@ TEST(Demo, PageOpensInABrowserWithoutErrors) {
 
 TEST(Demo, PlaceThatCannotBeWritten) {
   const test::TemporaryFolder folder;
-  const test::ProgramRun run = test::run_program(kProgram + " demo --out " + (folder.path() / "absent/demo.html").string());
+  const test::ProgramRun run =
+      test::run_program(kProgram + " demo --out " + (folder.path() / "absent/demo.html").string());
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.output.find("does not exist"), std::string::npos) << run.output;
 }

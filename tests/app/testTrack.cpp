@@ -115,10 +115,10 @@ TEST_F(Track, CutOffPng) {
 }
 
 TEST_F(Track, CutOffJpeg) {
-  ASSERT_EQ(test::run_program("printf '\\377\\330\\377\\340aaaaaaaaaaaaaaaa' > " +
-                              (data_ / "images/000004_M2.png").string())
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      test::run_program("printf '\\377\\330\\377\\340aaaaaaaaaaaaaaaa' > " + (data_ / "images/000004_M2.png").string())
+          .exit_code,
+      0);
   expect_failure({"frames.csv:3", "'M2'", "000004_M2.png", "cut off"});
 }
 

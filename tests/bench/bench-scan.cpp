@@ -43,7 +43,9 @@ const Scene& field_scene() {
   return scene;
 }
 
-scan::Colours colours() { return scan::read_colours(data_file("colours/default.yaml")); }
+scan::Colours colours() {
+  return scan::read_colours(data_file("colours/default.yaml"));
+}
 
 // OpenCV's way for one camera, with everything that can be precomputed.
 class OpenCvScan {
@@ -102,7 +104,8 @@ void scan_histograms(benchmark::State& state) {
   std::vector<scan::Stretch> stretches;
   for (const omni::Camera& camera : scene.rig.cameras) {
     const scan::ScanOptions options;
-    maps.push_back(scan::make_polar_map(camera, kAzimuths, radians(options.min_elevation_deg), radians(options.max_elevation_deg)));
+    maps.push_back(scan::make_polar_map(camera, kAzimuths, radians(options.min_elevation_deg),
+                                        radians(options.max_elevation_deg)));
     stretches.reserve(maps.back().scanned_pixels());
   }
   const std::vector<scan::IntegerClass> classes = scan::detected_classes(colours());
@@ -147,7 +150,7 @@ void read_annuli(benchmark::State& state) {
   const Scene& scene = field_scene();
   const scan::ScanOptions options;
   const scan::PolarMap map = scan::make_polar_map(scene.rig.cameras[0], kAzimuths, radians(options.min_elevation_deg),
-                                            radians(options.max_elevation_deg));
+                                                  radians(options.max_elevation_deg));
   for (auto _ : state) {
     std::uint64_t sum = 0;
     for (const grab::Frame& frame : scene.images.frames) {

@@ -45,7 +45,9 @@ struct Case {
   CameraModel model;
 };
 
-void PrintTo(const Case& tested, std::ostream* stream) { *stream << tested.label; }  // NOLINT: GoogleTest's name
+void PrintTo(const Case& tested, std::ostream* stream) {
+  *stream << tested.label;
+}  // NOLINT: GoogleTest's name
 
 class EveryModel : public testing::TestWithParam<Case> {
  protected:

@@ -11,7 +11,7 @@
 #if !defined(__SANITIZE_ADDRESS__)
 
 namespace {
-std::atomic<bool> counting{false};       // NOLINT: malloc has no other way to be told
+std::atomic<bool> counting{false};        // NOLINT: malloc has no other way to be told
 std::atomic<int> allocations_counted{0};  // NOLINT
 
 void count() {
@@ -19,11 +19,12 @@ void count() {
 }
 }  // namespace
 
+// NOLINTBEGIN: the names are glibc's own
 extern "C" {
-void* __libc_malloc(std::size_t size);                          // NOLINT: glibc's own names
-void* __libc_calloc(std::size_t number, std::size_t size);      // NOLINT
-void* __libc_realloc(void* memory, std::size_t size);           // NOLINT
-void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t number, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) {
   count();
@@ -41,12 +42,15 @@ void* memalign(std::size_t alignment, std::size_t size) {
   count();
   return __libc_memalign(alignment, size);
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  return memalign(alignment, size);
+}
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   *memory = memalign(alignment, size);
   return *memory != nullptr ? 0 : ENOMEM;
 }
 }
+// NOLINTEND
 
 namespace movis {
 namespace {

@@ -95,7 +95,8 @@ TEST(Pipeline, RigOfOneCamera) {
 TEST(Options, ReadStrictly) {
   const test::TemporaryFolder folder;
   const auto read = [&](const char* text) { return pipeline::read_options(folder.write("options.yaml", text)); };
-  const pipeline::Options options = read("scan: {bins: 360, threshold: {minimum: 3}}\ntriangulation: {min_parallax_deg: 1}\n");
+  const pipeline::Options options =
+      read("scan: {bins: 360, threshold: {minimum: 3}}\ntriangulation: {min_parallax_deg: 1}\n");
   EXPECT_EQ(options.scan.bins, 360);
   EXPECT_DOUBLE_EQ(options.scan.threshold.minimum, 3.0);
   EXPECT_DOUBLE_EQ(options.triangulation.min_parallax_deg, 1.0);

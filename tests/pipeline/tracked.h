@@ -15,7 +15,10 @@ namespace movis::test {
 inline pipeline::Pipeline make_pipeline(const grab::Dataset& dataset, const char* localizer = "composed") {
   std::optional<Field> field;
   if (dataset.field_file) field = read_field(*dataset.field_file);
-  return {dataset.rig, field, scan::read_colours(data_file("colours/default.yaml")), {},
+  return {dataset.rig,
+          field,
+          scan::read_colours(data_file("colours/default.yaml")),
+          {},
           localization::find_localizer(localizer)};
 }
 

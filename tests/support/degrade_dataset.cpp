@@ -1,12 +1,11 @@
 // Copies a data set with blur and noise added to its images:  degrade-dataset DIR OUT [BLUR_PX NOISE_LEVELS SEED]
-#include "support/degrade.h"
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "movis/grab/dataset.h"
+#include "support/degrade.h"
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;

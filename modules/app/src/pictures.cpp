@@ -11,10 +11,10 @@ namespace movis::app {
 namespace {
 
 constexpr int kPanoramaWidth = 1080;
-constexpr double kMinElevationDeg = -45.0;
-constexpr double kMaxElevationDeg = 25.0;
+constexpr int kMinElevationDeg = -45;
+constexpr int kMaxElevationDeg = 20;
 constexpr int kPanoramaHeight =
-    static_cast<int>(kPanoramaWidth * (kMaxElevationDeg - kMinElevationDeg) / 360.0);  // degrees as high as wide
+    kPanoramaWidth * (kMaxElevationDeg - kMinElevationDeg) / 360;  // degrees as high as wide
 
 std::optional<Eigen::Vector2d> pixel_of(const omni::Camera& camera, double azimuth, double elevation) {
   const double horizontal = std::cos(elevation);
@@ -35,9 +35,8 @@ report::EncodedImage encode(const cv::Mat& bgr) {
 
 // The line of one azimuth in the picture, from below the horizon to above it.
 std::vector<Eigen::Vector2d> line_of(const omni::Camera& camera, double azimuth) {
-  constexpr double kStepDeg = 1.0;
   std::vector<Eigen::Vector2d> line;
-  for (double elevation_deg = kMinElevationDeg; elevation_deg <= kMaxElevationDeg; elevation_deg += kStepDeg) {
+  for (int elevation_deg = kMinElevationDeg; elevation_deg <= kMaxElevationDeg; ++elevation_deg) {
     if (const auto pixel = pixel_of(camera, azimuth, radians(elevation_deg))) line.push_back(*pixel);
   }
   return line;
@@ -59,7 +58,9 @@ PictureMaker::PictureMaker(const omni::Camera& camera)
   }
 }
 
-report::EncodedImage PictureMaker::picture(const cv::Mat& bgr) const { return encode(bgr); }
+report::EncodedImage PictureMaker::picture(const cv::Mat& bgr) const {
+  return encode(bgr);
+}
 
 report::Panorama PictureMaker::panorama(const cv::Mat& bgr) const {
   cv::Mat unrolled;

@@ -95,8 +95,8 @@ std::optional<Region> find_region(const PolarMap& map, const std::vector<ObjectP
 // The pixels of the window; their membership is still the bare saturation along the goal's hue.
 void collect_samples(const ImageView& image, const PolarMap& map, const Goal& goal, const Edge& edge,
                      const Region& region, RefineScratch& scratch) {
-  const float cos_edge = static_cast<float>(std::cos(edge.azimuth));
-  const float sin_edge = static_cast<float>(std::sin(edge.azimuth));
+  const auto cos_edge = static_cast<float>(std::cos(edge.azimuth));
+  const auto sin_edge = static_cast<float>(std::sin(edge.azimuth));
   const auto inwards = static_cast<float>(edge.inwards);
   const auto window = static_cast<float>(std::tan(std::min(region.window, 1.0)));
   scratch.samples.clear();
