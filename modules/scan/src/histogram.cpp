@@ -11,10 +11,9 @@ double adaptive_threshold(const std::vector<std::uint32_t>& counts, const Thresh
   constexpr std::uint32_t kTable = 256;
   std::array<std::size_t, kTable> bins_with{};
   std::uint32_t peak = 0;
-  for (const std::uint32_t count : counts) {
-    ++bins_with[std::min(count, kTable - 1)];
-    peak = std::max(peak, count);
-  }
+  for (const std::uint32_t count : counts) peak = std::max(peak, count);
+  if (peak == 0) return options.minimum;
+  for (const std::uint32_t count : counts) ++bins_with[std::min(count, kTable - 1)];
   std::uint32_t median = 0;
   for (std::size_t below = bins_with[0]; median + 1 < kTable && 2 * below < counts.size(); below += bins_with[median]) {
     ++median;

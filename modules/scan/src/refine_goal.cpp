@@ -99,9 +99,16 @@ void collect_samples(const ImageView& image, const PolarMap& map, const Goal& go
   const auto sin_edge = static_cast<float>(std::sin(edge.azimuth));
   const auto inwards = static_cast<float>(edge.inwards);
   const auto window = static_cast<float>(std::tan(std::min(region.window, 1.0)));
+  // The bins of the window: one comparison spares most pixels their ray.
+  const double bins_per_radian = map.bins / (2.0 * kPi);
+  const int edge_bin = static_cast<int>((edge.azimuth + kPi) * bins_per_radian);
+  const int reach = static_cast<int>(region.window * bins_per_radian) + 1;
+  const int first_bin = (edge_bin - reach + 2 * map.bins) % map.bins;
   scratch.samples.clear();
   for (int v = region.rows.begin; v < region.rows.end; ++v) {
     for (int u = scratch.widened[v].begin; u < scratch.widened[v].end; ++u) {
+      const int beyond_first = map.bin[map.index(u, v)] - first_bin;
+      if ((beyond_first < 0 ? beyond_first + map.bins : beyond_first) > 2 * reach) continue;
       const PixelRay& ray = map.ray[map.index(u, v)];
       if (ray.solid_angle <= 0.0F || ray.z < region.z_low || ray.z > region.z_high) continue;
       const float along = ray.x * cos_edge + ray.y * sin_edge;

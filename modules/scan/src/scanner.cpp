@@ -79,7 +79,7 @@ bool Scanner::find_object(ObjectClass object, Bearing& bearing, const ImageView&
 
 // Every pixel of a ball, and of a goal those near its edges and a few of the others: they tell its colour and height.
 void Scanner::collect_object(ObjectClass object, const Segment& segment) {
-  constexpr double kMarginDeg = 3.5;
+  constexpr double kMarginDeg = 3.0;  // what refine_goal looks at
   constexpr int kOneIn = 16;
   const int margin =
       object == ObjectClass::ball ? segment.length : static_cast<int>(kMarginDeg / 360.0 * options_.bins);
@@ -88,20 +88,24 @@ void Scanner::collect_object(ObjectClass object, const Segment& segment) {
   for (int place = -1; place <= segment.length; ++place) {
     places_[(segment.first + place + options_.bins) % options_.bins] = static_cast<std::int16_t>(place);
   }
-  const auto inside = [&](std::int16_t place) { return place >= margin && place < segment.length - margin; };
   object_.clear();
   for (const Stretch& stretch : stretches_) {
     if (stretch.object != object) continue;
     const std::size_t row = map_.index(0, stretch.row);
     const auto place_at = [&](int u) { return places_[map_.bin[row + u]]; };
-    // The azimuth turns one way along a stretch: what begins and ends inside lies inside.
-    const bool all_inside = inside(place_at(stretch.begin)) && inside(place_at(stretch.end - 1));
-    const int step = all_inside ? kOneIn : 1;
-    for (int u = stretch.begin; u < stretch.end; u += step) {
+    const auto inside = [&](int u) { return place_at(u) >= margin && place_at(u) < segment.length - margin; };
+    const auto keep = [&](int u) {
       const std::int16_t place = place_at(u);
-      if (place == kElsewhere || (inside(place) && u % kOneIn != 0 && !all_inside)) continue;
+      if (place == kElsewhere) return;
       object_.push_back({static_cast<std::uint16_t>(u), stretch.row, place, map_.ray[row + u].z});
-    }
+    };
+    // The azimuth turns one way along a stretch: its inside is one piece.
+    int first = stretch.begin;
+    int last = stretch.end;
+    for (; first < last && !inside(first); ++first) keep(first);
+    while (last > first && !inside(last - 1)) --last;
+    for (int u = first + kOneIn / 2; u < last; u += kOneIn) keep(u);
+    for (int u = last; u < stretch.end; ++u) keep(u);
   }
 }
 
