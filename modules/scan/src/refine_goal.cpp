@@ -92,7 +92,7 @@ std::optional<Region> find_region(const PolarMap& map, const std::vector<ObjectP
   return region;
 }
 
-// The pixels of the window; their membership is still the bare saturation along the goal's hue.
+// The pixels of the window; their membership is still the chromaticity along the goal's hue.
 void collect_samples(const ImageView& image, const PolarMap& map, const Goal& goal, const Edge& edge,
                      const Region& region, RefineScratch& scratch) {
   const auto cos_edge = static_cast<float>(std::cos(edge.azimuth));
@@ -111,11 +111,11 @@ void collect_samples(const ImageView& image, const PolarMap& map, const Goal& go
       if ((beyond_first < 0 ? beyond_first + map.bins : beyond_first) > 2 * reach) continue;
       const PixelRay& ray = map.ray[map.index(u, v)];
       if (ray.solid_angle <= 0.0F || ray.z < region.z_low || ray.z > region.z_high) continue;
-      const float along = ray.x * cos_edge + ray.y * sin_edge;
-      const float across = inwards * (ray.y * cos_edge - ray.x * sin_edge);
-      if (along <= 0.0F || std::abs(across) > window * along) continue;
+      const float forward = ray.x * cos_edge + ray.y * sin_edge;
+      const float sideways = inwards * (ray.y * cos_edge - ray.x * sin_edge);
+      if (forward <= 0.0F || std::abs(sideways) > window * forward) continue;
       if (scratch.samples.size() == scratch.samples.capacity()) return;
-      const float tangent = across / along;
+      const float tangent = sideways / forward;
       const float offset = tangent * (1.0F - tangent * tangent * (1.0F / 3.0F - 0.2F * tangent * tangent));  // atan
       const Light light = light_at(image, u, v);
       scratch.samples.push_back(
@@ -136,27 +136,45 @@ bool ends_at_black(const std::vector<Sample>& samples, double window) {
   return 2 * black > outer;
 }
 
-// Saturation to membership by its means at the window's two ends. False where the two do not differ.
-bool normalize(std::vector<Sample>& samples, double window) {
-  double inside = 0.0, outside = 0.0;
-  int inner = 0, outer = 0;
+// The two sides of the edge, from the window's ends: mean chromaticity along the goal's hue and mean brightness + ε.
+struct Side {
+  double chroma = 0.0;
+  double brightness = 0.0;
+  int pixels = 0;
+
+  void add(const Sample& sample, float dark) {
+    chroma += sample.membership;
+    brightness += sample.brightness + dark;
+    ++pixels;
+  }
+  void divide() {
+    chroma /= pixels;
+    brightness /= pixels;
+  }
+};
+
+// Chromaticity to membership. Light mixes, chromaticities do not: of a pixel that shows the goal (c_o, brightness s_o)
+// with a share f and its surroundings (c_b, s_b) with the rest, it is
+//   c = (f s_o c_o + (1 − f) s_b c_b) / (f s_o + (1 − f) s_b)   ⇔   f = s_b (c − c_b) / (s_b (c − c_b) + s_o (c_o −
+//   c)).
+// False where the two sides do not differ.
+bool normalize(std::vector<Sample>& samples, double window, float dark) {
+  Side inside, outside;
   for (const Sample& sample : samples) {
-    if (sample.offset > 0.5 * window) {
-      inside += sample.membership;
-      ++inner;
-    } else if (sample.offset < -0.5 * window) {
-      outside += sample.membership;
-      ++outer;
-    }
+    if (sample.offset > 0.5 * window) inside.add(sample, dark);
+    if (sample.offset < -0.5 * window) outside.add(sample, dark);
   }
   constexpr int kFewest = 3;
-  if (inner < kFewest || outer < kFewest) return false;
-  inside /= inner;
-  outside /= outer;
+  if (inside.pixels < kFewest || outside.pixels < kFewest) return false;
+  inside.divide();
+  outside.divide();
   constexpr double kLeastContrast = 0.1;
-  if (inside - outside < kLeastContrast) return false;
+  if (inside.chroma - outside.chroma < kLeastContrast) return false;
   for (Sample& sample : samples) {
-    sample.membership = std::clamp(static_cast<float>((sample.membership - outside) / (inside - outside)), 0.0F, 1.0F);
+    const double chroma = std::clamp<double>(sample.membership, outside.chroma, inside.chroma);
+    const double goal = outside.brightness * (chroma - outside.chroma);
+    const double other = inside.brightness * (inside.chroma - chroma);
+    sample.membership = static_cast<float>(goal / (goal + other));
   }
   return true;
 }
@@ -208,7 +226,7 @@ std::optional<Crossing> refine_edge(const ImageView& image, const PolarMap& map,
   const auto region = find_region(map, object, edge, bins, options, scratch);
   if (!region) return std::nullopt;
   collect_samples(image, map, goal, edge, *region, scratch);
-  if (!normalize(scratch.samples, region->window)) return std::nullopt;
+  if (!normalize(scratch.samples, region->window, goal.dark)) return std::nullopt;
   auto crossing = solve_step(scratch.samples, region->window, options.pixel_sigma);
   if (crossing) crossing->hidden = ends_at_black(scratch.samples, region->window);
   return crossing;

@@ -33,6 +33,13 @@ inline double trusted_variance(const Bearing& bearing) {
   return bearing.covariance(0, 0) * (bearing.clean() ? 1.0 : kFlagged * kFlagged);
 }
 
+inline Eigen::Vector2d position_of(const omni::Rig& rig, const Bearing& bearing) {
+  if (bearing.camera < 0 || bearing.camera >= static_cast<int>(rig.cameras.size())) {
+    throw Error("a bearing is of camera number {}, the rig has {} cameras", bearing.camera, rig.cameras.size());
+  }
+  return rig.cameras[bearing.camera].position.head<2>();
+}
+
 // Intersects every pair of the object's bearings, `azimuth_of` each, and keeps the pair that owns the direction of its
 // own point: the largest perpendicularity over the standard deviation of the parallax. Where all bearings are equally
 // good these are the paper's areas. Without a pair that intersects, the status of the last one that was tried says why.
@@ -47,12 +54,12 @@ OwningPair find_owning_pair(const omni::Rig& rig, const std::vector<Bearing>& be
   for (std::size_t i = 0; i < bearings.size(); ++i) {
     const Bearing& one = bearings[i];
     if (one.object != object) continue;
+    const Eigen::Vector2d position1 = position_of(rig, one);
     if (best.status == PointStatus::not_seen) best.status = PointStatus::one_camera;
     for (std::size_t j = i + 1; j < bearings.size(); ++j) {
       const Bearing& two = bearings[j];
       if (two.object != object || two.camera == one.camera) continue;
-      const Eigen::Vector2d position1 = rig.cameras.at(one.camera).position.head<2>();
-      const Eigen::Vector2d position2 = rig.cameras.at(two.camera).position.head<2>();
+      const Eigen::Vector2d position2 = position_of(rig, two);
       const Intersection found = intersect(position1, azimuth_of(one), position2, azimuth_of(two), options);
       if (found.status != PointStatus::ok) {
         if (best_score < 0.0) best.status = found.status;

@@ -66,9 +66,11 @@ GoalPoints triangulate_goal_pairs(const omni::Rig& rig, const std::vector<Bearin
   points.centre = pairs[0].intersection.point;
   points.left = pairs[1].intersection.point;
   points.right = pairs[2].intersection.point;
+  const bool solved[] = {points.centre_status == PointStatus::ok, points.edges_status == PointStatus::ok,
+                         points.edges_status == PointStatus::ok};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      if (pairs[i].status != PointStatus::ok || pairs[j].status != PointStatus::ok) continue;
+      if (!solved[i] || !solved[j]) continue;
       points.covariance.block<2, 2>(landmarks[i].row, landmarks[j].row) =
           cross_covariance(pairs[i], by_edges[i], pairs[j], by_edges[j]);
     }
