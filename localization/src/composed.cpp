@@ -7,6 +7,7 @@ namespace movis::localization {
 
 Fix composed(const triangulation::GoalLandmarks& landmarks, const Field& field) {
   if (const FixStatus status = landmark_status(landmarks, Needs::both); status != FixStatus::ok) return failed(status);
+  if (centres_contradict(landmarks, field)) return failed(FixStatus::contradiction);
   const GoalCircles circles = meet_circles(landmarks, field);
   if (circles.status != FixStatus::ok) return failed(circles.status);
 

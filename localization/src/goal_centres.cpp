@@ -31,4 +31,17 @@ Solution solve_centres(const triangulation::GoalLandmarks& landmarks) {
   return solution;
 }
 
+bool centres_contradict(const triangulation::GoalLandmarks& landmarks, const Field& field) {
+  constexpr double kSigmas = 5.0;
+  constexpr double kShare = 0.25;
+  const Eigen::Vector2d d = landmarks.yellow.centre - landmarks.blue.centre;
+  if (!(d.norm() > 0.0)) return false;  // one point: no direction, and so no pose
+  const Eigen::Vector2d along = d.normalized();
+  const Eigen::Matrix2d covariance =
+      landmarks.yellow.covariance.topLeftCorner<2, 2>() + landmarks.blue.covariance.topLeftCorner<2, 2>();
+  const double deviation = std::sqrt(std::max(0.0, along.dot(covariance * along)));
+  const double expected = 2.0 * field.Fd;
+  return std::abs(d.norm() - expected) > kSigmas * deviation + kShare * expected;
+}
+
 }  // namespace movis::localization

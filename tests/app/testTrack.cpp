@@ -173,6 +173,71 @@ TEST_F(Track, OutputFolderThatIsAbsent) {
   EXPECT_NE(run.output.find("does not exist"), std::string::npos) << run.output;
 }
 
+TEST_F(Track, OutputOntoItsInput) {
+  for (const char* input : {"frames.csv", "rig.yaml", "images/000004_M2.png"}) {
+    const std::string before = read_text(data_ / input);
+    const test::ProgramRun run = test::run_program(std::string(MOVIS_PROGRAM) + " track --data " + data_.string() +
+                                                   " --out " + (data_ / input).string());
+    EXPECT_EQ(run.exit_code, 1) << input;
+    EXPECT_NE(run.output.find("is the input file"), std::string::npos) << run.output;
+    EXPECT_EQ(read_text(data_ / input), before);
+  }
+}
+
+TEST_F(Track, OutputThatIsFull) {
+  const test::ProgramRun run = test::run_program("{ " + std::string(MOVIS_PROGRAM) + " track --data " + data_.string() +
+                                                 " --out " + out_.string() + " >/dev/full; }");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.output.find("standard output cannot be written"), std::string::npos) << run.output;
+}
+
+TEST_F(Track, InterruptedLeavesNothingBehind) {
+  // A thousand rows of the same images, so that the signal comes in the middle.
+  std::string rows = "frame,time_s,M1,M2,M3\n";
+  for (int i = 0; i < 1000; ++i) {
+    rows += std::to_string(i) + ",0,images/000000_M1.png,images/000000_M2.png,images/000000_M3.png\n";
+  }
+  std::ofstream(data_ / "frames.csv") << rows;
+  const test::ProgramRun run =
+      test::run_program("timeout --signal=INT --preserve-status 1 " + std::string(MOVIS_PROGRAM) + " track --data " +
+                        data_.string() + " --out " + out_.string());
+  EXPECT_EQ(run.exit_code, 1) << run.output;
+  EXPECT_NE(run.output.find("interrupted"), std::string::npos) << run.output;
+  for (const auto& entry : fs::directory_iterator(folder_.path())) EXPECT_EQ(entry.path(), data_);
+}
+
+TEST_F(Track, FieldOfAnotherSize) {
+  replace("field.yaml", "Fd: 2.0", "Fd: 9.0");
+  replace("field.yaml", "half_length: 2.0", "half_length: 9.0");
+  ASSERT_EQ(track().exit_code, 0);
+  const CsvTable table = CsvTable::read(out_);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_EQ(table.text(row, table.column("pose_status")), "contradiction");
+  }
+}
+
+TEST_F(Track, TruthOfAnotherRecording) {
+  std::ofstream(data_ / "truth.csv") << "frame,time_s,robot_x,robot_y,robot_beta,ball_x,ball_y,ball_z,label\n"
+                                     << "777,0,0,0,0,0,0,0,\n";
+  expect_failure({"truth.csv", "another recording"});
+}
+
+TEST_F(Track, WhiteGoals) {
+  std::ofstream(data_ / "field.yaml", std::ios::app) << "goals: white\n";
+  expect_failure({"goals are white"});
+}
+
+TEST_F(Track, CamerasInOnePlace) {
+  std::string rig = read_text(data_ / "rig.yaml");
+  for (const char* position : {"- -0.173205081\n  - 0.1\n", "- 0.173205081\n  - 0.1\n", "- -0.0\n  - -0.2\n"}) {
+    const auto at = rig.find(position);
+    ASSERT_NE(at, std::string::npos);
+    rig.replace(at, std::string(position).size(), "- 0.0\n  - 0.0\n");
+  }
+  std::ofstream(data_ / "rig.yaml") << rig;
+  expect_failure({"position", "apart"});
+}
+
 TEST_F(Track, WrongArguments) {
   expect_failure({"--localizer", "guess"}, "--localizer guess", 2);
   expect_failure({"--speed"}, "--speed 3", 2);

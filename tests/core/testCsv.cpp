@@ -20,6 +20,14 @@ TEST(Csv, ReadsCellsAndKeepsEmptyOnes) {
   EXPECT_EQ(table.line(1), 4);
 }
 
+TEST(Csv, ByteOrderMarkAndLargeNumbers) {
+  const TemporaryFolder folder;
+  const CsvTable table = CsvTable::read(folder.write("t.csv",
+                                                     "\xEF\xBB\xBF"
+                                                     "frame\n3000000000\n"));
+  EXPECT_EQ(table.integer(0, table.column("frame")), 3000000000);
+}
+
 TEST(Csv, ErrorsNameFileLineAndColumn) {
   const TemporaryFolder folder;
   expect_error([&] { CsvTable::read(folder.path() / "absent.csv"); }, {"absent.csv", "cannot be opened"});

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <fstream>
 #include <iterator>
+#include <string>
+#include <thread>
 
 #include "movis/core/output_file.h"
 #include "support/temporary_folder.h"
@@ -31,6 +35,33 @@ TEST(OutputFile, AppearsOnlyWhenComplete) {
   }
   EXPECT_EQ(entries(folder.path()), 1U);
   EXPECT_EQ(std::filesystem::file_size(file), 5U);
+}
+
+TEST(OutputFile, WritesToAPipeAsItIs) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string received;
+  std::thread reader([&] { std::getline(std::ifstream(pipe), received); });
+  {
+    OutputFile output(pipe);
+    output.stream() << "whole\n";
+    output.commit();
+  }
+  reader.join();
+  EXPECT_EQ(received, "whole");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST(OutputFile, FollowsALink) {
+  const TemporaryFolder folder;
+  const auto target = folder.write("target.csv", "old");
+  std::filesystem::create_symlink(target, folder.path() / "link.csv");
+  OutputFile output(folder.path() / "link.csv");
+  output.stream() << "whole";
+  output.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link.csv"));
+  EXPECT_EQ(std::filesystem::file_size(target), 5U);
 }
 
 TEST(OutputFile, RefusesAPlaceThatCannotBeWritten) {

@@ -61,6 +61,14 @@ TEST(Yaml, KeyThatStandsTwice) {
                {"field.yaml:10", "Fd", "twice"});
 }
 
+TEST(Yaml, KeyWithoutValueAndSecondDocument) {
+  const TemporaryFolder folder;
+  std::string text = kField;
+  expect_error([&] { read_field(folder.write("field.yaml", text + "---\nFd: 3\n")); }, {"2 YAML documents"});
+  text.replace(text.find(": 1.75"), 6, ":");
+  expect_error([&] { read_field(folder.write("field.yaml", text)); }, {"field.yaml:", "half_width", "no value"});
+}
+
 TEST(Yaml, NoYamlAtAll) {
   const TemporaryFolder folder;
   expect_error([&] { read_field(folder.write("field.yaml", "a: [1, 2\n")); }, {"field.yaml", "not valid YAML"});

@@ -40,6 +40,15 @@ UnifiedSphere distorted_sphere() {
   return model;
 }
 
+// Beyond the turning point its distortion grows again: another ray for the same pixel, which must not be taken.
+UnifiedSphere folding_sphere() {
+  UnifiedSphere model = sphere(0.96);
+  model.k1 = -0.3;
+  model.k2 = 0.03;
+  model.max_elevation = radians(60.0);
+  return model;
+}
+
 struct Case {
   const char* label;
   CameraModel model;
@@ -57,7 +66,7 @@ class EveryModel : public testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(CameraModel, EveryModel,
                          testing::Values(Case{"hyperboloid", mirror()}, Case{"below_one", sphere(0.8)},
                                          Case{"paraboloid", sphere(1.0)}, Case{"above_one", sphere(1.3)},
-                                         Case{"distorted", distorted_sphere()}),
+                                         Case{"distorted", distorted_sphere()}, Case{"folding", folding_sphere()}),
                          [](const auto& tested) { return std::string(tested.param.label); });
 
 // Every pixel of the picture that has a ray projects back onto itself, and most of the mirror has rays.

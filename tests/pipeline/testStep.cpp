@@ -102,7 +102,7 @@ TEST(Options, ReadStrictly) {
   EXPECT_DOUBLE_EQ(options.triangulation.min_parallax_deg, 1.0);
   EXPECT_DOUBLE_EQ(options.scan.ball_gap_deg, scan::ScanOptions{}.ball_gap_deg);
   test::expect_error([&] { read("scan: {bin: 360}\n"); }, {"options.yaml:1", "'bin'", "did you mean 'bins'"});
-  test::expect_error([&] { read("scan: {bins: 3}\n"); }, {"scan.bins", "out of range"});
+  test::expect_error([&] { read("scan: {bins: 36}\n"); }, {"scan.bins", "out of range"});
   test::expect_error([&] { read("scanner: {}\n"); }, {"'scanner'", "Known here: scan, triangulation"});
 }
 

@@ -155,9 +155,12 @@ class OmniRenderer {
     double distance = 1e9;
     const int balls = static_cast<int>(scene.balls.size());
     for (int i = 0; i < balls; ++i) {
-      const Vector3d to_centre = scene.balls[i].centre - camera_.position;
-      const double along = to_centre.dot(ray);
-      const double radicand = along * along - to_centre.squaredNorm() + scene.balls[i].radius * scene.balls[i].radius;
+      const Ball& ball = scene.balls[i];
+      const double x = ball.centre.x() - camera_.position.x();
+      const double y = ball.centre.y() - camera_.position.y();
+      const double z = ball.centre.z() - camera_.position.z();
+      const double along = x * ray.x() + y * ray.y() + z * ray.z();
+      const double radicand = along * along - (x * x + y * y + z * z) + ball.radius * ball.radius;
       if (along <= 0.0 || radicand < 0.0 || along - std::sqrt(radicand) >= distance) continue;
       distance = along - std::sqrt(radicand);
       nearest = i;

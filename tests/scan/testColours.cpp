@@ -83,6 +83,12 @@ TEST(ColoursFile, HueMustSpanLessThanHalfACircle) {
   EXPECT_NO_THROW(colours_of(ball_with("[0, 179.9]")));
 }
 
+// No byte may lie between the bounds, no hue be told from its neighbours.
+TEST(ColoursFile, SectorsAndBoundsTooNarrowForBytesAreErrors) {
+  expect_error([] { colours_of(ball_with("[20, 20.5]")); }, {"colours.yaml:1", "ball.hue_deg", "1°"});
+  expect_error([] { colours_of(ball_with("[5, 38]", "[0.2, 0.201]")); }, {"colours.yaml:1", "ball.chroma", "1/255"});
+}
+
 TEST(ColoursFile, BoundsMustBeOrderedFractions) {
   expect_error([] { colours_of(ball_with("[5, 38]", "[0.9, 0.2]")); }, {"colours.yaml:1", "ball.chroma", "smaller"});
   expect_error([] { colours_of(ball_with("[5, 38]", "[0.2, 0.2]")); }, {"ball.chroma", "smaller"});
@@ -98,8 +104,14 @@ TEST(ColoursFile, BoundsMustBeOrderedFractions) {
 
 TEST(ColoursFile, EmptyIsAnError) {
   expect_error([] { colours_of(""); }, {"colours.yaml"});
-  expect_error([] { colours_of("{}\n"); }, {"colours.yaml", "no colour class"});
+  expect_error([] { colours_of("{}\n"); }, {"colours.yaml", "class"});
   expect_error([] { read_colours("/nowhere/colours.yaml"); }, {"/nowhere/colours.yaml"});
+}
+
+// Such a file reads well and the robot sees nothing.
+TEST(ColoursFile, NothingToDetectIsAnError) {
+  expect_error([] { colours_of("field: {hue_deg: [90, 170], chroma: [0.1, 1.0], brightness: [0.1, 1.0]}\n"); },
+               {"colours.yaml", "ball", "yellow_goal", "blue_goal"});
 }
 
 // Hue by hand: of a pure colour with α = R − (G + B)/2 and β = √3/2 (G − B), (255, 0, 0) lies at (255, 0): 0°;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "evaluation.h"
+#include "interrupt.h"
 #include "movis/core/paths.h"
 #include "movis/grab/dataset_source.h"
 #include "movis/grab/truth.h"
@@ -77,6 +78,7 @@ void track_set(const std::string& set, report::TrackPage& page, Evaluation& eval
   for (const omni::Camera& camera : dataset.rig.cameras) makers.emplace_back(camera);
   source.open();
   for (grab::FrameSet images; source.acquire(images);) {
+    check_interrupts();
     step(pipeline, images);
     const auto found = truth.find(images.index);
     const grab::Truth* true_state = found != truth.end() ? &found->second : nullptr;

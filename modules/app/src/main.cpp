@@ -4,6 +4,7 @@
 #include <string>
 
 #include "demo_command.h"
+#include "interrupt.h"
 #include "movis/localization/localizer.h"
 #include "track_command.h"
 
@@ -46,6 +47,7 @@ void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  movis::app::catch_interrupts();
   CLI::App program("MOVIS: omnidirectional vision and visual servoing of mobile robots");
   program.set_version_flag("--version", "movis " MOVIS_VERSION);
   program.require_subcommand(1);
@@ -55,6 +57,10 @@ int main(int argc, char** argv) {
   add_track(program, track_arguments);
   try {
     program.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      std::fprintf(stderr, "movis: standard output cannot be written; is the disk full?\n");
+      return kFailed;
+    }
     return kDone;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? kDone : kWrongArguments;

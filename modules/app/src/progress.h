@@ -13,6 +13,10 @@ class Progress {
  public:
   Progress(std::string what, std::size_t total) : what_(std::move(what)), total_(total), shown_(isatty(2) != 0) {}
 
+  ~Progress() { finish(); }  // before an error's message
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
   void advance() {
     ++done_;
     const auto now = Clock::now();

@@ -8,6 +8,7 @@
 
 #include "estimates_file.h"
 #include "evaluation.h"
+#include "interrupt.h"
 #include "movis/core/error.h"
 #include "movis/core/paths.h"
 #include "movis/grab/dataset_source.h"
@@ -35,6 +36,25 @@ pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Da
   return {dataset.rig, field, colours, options, localization::find_localizer(arguments.localizer)};
 }
 
+// The recording is worth more than the estimates.
+void refuse_to_overwrite_input(const TrackArguments& arguments, const grab::Dataset& dataset) {
+  std::vector<fs::path> inputs{dataset.rig_file, dataset.folder / "frames.csv", dataset.folder / "truth.csv",
+                               dataset.folder / "field.yaml"};
+  for (const auto& file : {arguments.field, arguments.colours, arguments.options}) {
+    if (file) inputs.push_back(*file);
+  }
+  for (const omni::Camera& camera : dataset.rig.cameras) inputs.push_back(camera.mask);
+  for (const grab::DatasetFrame& frame : dataset.frames) {
+    for (const grab::DatasetImage& image : frame.images) inputs.push_back(image.file);
+  }
+  std::error_code ignored;
+  for (const fs::path& input : inputs) {
+    if (!input.empty() && fs::equivalent(arguments.out, input, ignored)) {
+      throw Error("--out {}: is the input file {}; name another file", arguments.out.string(), input.string());
+    }
+  }
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -55,8 +75,15 @@ void track(const TrackArguments& arguments) {
   const std::size_t sets = source.dataset().frames.size();
   pipeline::Pipeline pipeline = make_pipeline(arguments, source.dataset());
   std::map<std::int64_t, grab::Truth> truth;
-  if (const fs::path file = arguments.data / "truth.csv"; fs::exists(file)) truth = grab::read_truth(file);
+  if (const fs::path file = arguments.data / "truth.csv"; fs::exists(file)) {
+    truth = grab::read_truth(file);
+    const auto& frames = source.dataset().frames;
+    const bool fits =
+        std::any_of(frames.begin(), frames.end(), [&](const auto& f) { return truth.count(f.index) > 0; });
+    if (!fits) throw Error("{}: has none of the frames of frames.csv; is it of another recording?", file.string());
+  }
 
+  refuse_to_overwrite_input(arguments, source.dataset());
   EstimatesFile estimates(arguments.out);
   Evaluation evaluation;
   std::map<std::string, int> ball_statuses, pose_statuses;
@@ -64,6 +91,7 @@ void track(const TrackArguments& arguments) {
   Progress progress("track", sets);
   source.open();
   for (grab::FrameSet images; source.acquire(images); progress.advance()) {
+    check_interrupts();
     const pipeline::Estimate& estimate = step(pipeline, images);
     estimates.add(estimate);
     ++ball_statuses[word(estimate.ball_in_robot.status)];

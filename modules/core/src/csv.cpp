@@ -44,6 +44,7 @@ CsvTable CsvTable::read(const std::filesystem::path& file) {
   table.file_ = file;
   std::string text;
   for (int line = 1; std::getline(stream, text); ++line) {
+    if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // the byte order mark of some editors
     if (trim(text).empty()) continue;
     std::vector<std::string> cells = split(text);
     if (table.header_.empty()) {
@@ -87,8 +88,8 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
   return value;
 }
 
-int CsvTable::integer(std::size_t row, std::size_t column) const {
-  int value = 0;
+std::int64_t CsvTable::integer(std::size_t row, std::size_t column) const {
+  std::int64_t value = 0;
   if (!parse(text(row, column), value)) {
     throw Error("{}: '{}' is not a whole number", where(row, column), text(row, column));
   }

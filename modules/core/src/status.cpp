@@ -33,6 +33,8 @@ const char* word(FixStatus status) {
       return "one_goal";
     case FixStatus::no_distance:
       return "no_distance";
+    case FixStatus::contradiction:
+      return "contradiction";
     case FixStatus::coinciding_circles:
       return "coinciding_circles";
     case FixStatus::negative_radicand:

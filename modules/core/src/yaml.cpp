@@ -74,9 +74,13 @@ YamlMap::YamlMap(YamlMap&&) noexcept = default;
 YamlMap& YamlMap::operator=(YamlMap&&) noexcept = default;
 
 YamlMap YamlMap::read(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw Error("{}: is a folder; name a YAML file", file.string());
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) throw Error("{}: is a folder; name a YAML file", file.string());
   try {
-    return {file, "", YAML::LoadFile(file.string())};
+    const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
+    if (documents.size() > 1)
+      throw Error("{}: holds {} YAML documents; it must be one", file.string(), documents.size());
+    return {file, "", documents.empty() ? YAML::Node() : documents.front()};
   } catch (const YAML::BadFile&) {
     throw Error("{}: cannot be opened; check that it exists and may be read", file.string());
   } catch (const YAML::ParserException& error) {
@@ -109,7 +113,8 @@ std::string YamlMap::where(const char* key) const {
 
 YAML::Node YamlMap::value(const char* key) const {
   const YAML::Node found = (*node_)[key];
-  if (!found.IsDefined() || found.IsNull()) fail(key, "is missing");
+  if (!found.IsDefined()) fail(key, "is missing");
+  if (found.IsNull()) fail(key, "has no value");
   return found;
 }
 

@@ -19,7 +19,7 @@ std::map<std::int64_t, Truth> read_truth(const std::filesystem::path& file) {
   std::map<std::int64_t, Truth> truth;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto number = [&](std::size_t column) { return table.number(row, column); };
-    const int frame = table.integer(row, 0);
+    const std::int64_t frame = table.integer(row, 0);
     const Pose2 world_from_robot{number(2), number(3), wrap_angle(number(4))};
     const Eigen::Vector3d ball_in_field(number(5), number(6), number(7));
     if (!truth.emplace(frame, Truth{number(1), world_from_robot, ball_in_field, table.text(row, 8)}).second) {

@@ -14,6 +14,7 @@ constexpr Range kPosition{-10.0, 10.0};    // metres
 constexpr Range kAnyAngle{-1e4, 1e4};      // degrees; files may hold any angle
 constexpr Range kTilt{-180.0, 180.0};      // degrees
 constexpr Range kImageSize{1.0, 65535.0};  // pixels
+constexpr double kMostPixels = 1e8;
 constexpr Range kDistortion{-10.0, 10.0};
 
 Hyperboloid read_hyperboloid(const YamlMap& camera) {
@@ -79,6 +80,9 @@ Camera read_camera(const YamlMap& map) {
   image.allow({"width", "height", "format"});
   camera.width = image.integer("width", kImageSize);
   camera.height = image.integer("height", kImageSize);
+  if (static_cast<double>(camera.width) * camera.height > kMostPixels) {
+    image.fail("width", "times height is more than 100 million pixels");
+  }
   if (image.has("format")) camera.format = read_format(image);
 
   if (map.one_of("model", {"hyperboloid", "unified"}) == "hyperboloid") {

@@ -29,9 +29,16 @@ Distorted distort(const UnifiedSphere& model, const Eigen::Vector2d& m) {
   return d;
 }
 
-// The distortion keeps the order of points along a ray from the centre, up to the turning point of its radial part.
+// The distortion keeps the order of points along a ray from the centre up to the turning point of its radial part, the
+// first positive root of d(kρ)/dρ = 1 + 3 k1 ρ² + 5 k2 ρ⁴.
 bool grows_outwards(const UnifiedSphere& model, double rho2) {
-  return 1.0 + rho2 * (3.0 * model.k1 + 5.0 * model.k2 * rho2) > 0.0 && 1.0 + rho2 * (model.k1 + model.k2 * rho2) > 0.0;
+  const double a = 5.0 * model.k2;
+  const double half_b = 1.5 * model.k1;
+  const double radicand = half_b * half_b - a;
+  if (radicand < 0.0) return true;  // no root
+  // The roots of 1 + 2 half_b x + a x² are 1/(−half_b ± √radicand); the larger denominator gives the first.
+  const double denominator = -half_b + std::sqrt(radicand);
+  return denominator <= 0.0 || rho2 * denominator < 1.0;
 }
 
 // Newton's method on distort(m) = target.

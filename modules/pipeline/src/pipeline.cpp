@@ -20,6 +20,20 @@ void scan_images(Pipeline& pipeline, const grab::FrameSet& images) {
   }
 }
 
+// Two cameras above each other, or in one place, have no parallax in azimuth.
+void require_baseline(const omni::Rig& rig) {
+  constexpr double kShortest = 0.01;  // metres
+  for (const omni::Camera& one : rig.cameras) {
+    for (const omni::Camera& two : rig.cameras) {
+      if ((one.position - two.position).head<2>().norm() >= kShortest) return;
+    }
+  }
+  throw Error(
+      "triangulation needs two cameras that stand at least {} m apart on the floor plane; check `position` of "
+      "the rig's cameras",
+      kShortest);
+}
+
 }  // namespace
 
 Pipeline::Pipeline(omni::Rig rig_used, std::optional<Field> field_used, const scan::Colours& colours,
@@ -27,6 +41,11 @@ Pipeline::Pipeline(omni::Rig rig_used, std::optional<Field> field_used, const sc
     : rig(std::move(rig_used)), field(field_used), options(options_used), localizer(localizer_used) {
   if (rig.cameras.size() < 2) {
     throw Error("triangulation needs a rig of two or more cameras; this one has {}", rig.cameras.size());
+  }
+  require_baseline(rig);
+  if (localizer == nullptr) throw Error("the pipeline needs a localizer; there is none of that name");
+  if (field && field->goals == Field::Goals::white) {
+    throw Error("the field's goals are white; the localizers need a yellow and a blue one");
   }
   scanners.reserve(rig.cameras.size());
   for (int camera = 0; camera < static_cast<int>(rig.cameras.size()); ++camera) {

@@ -202,6 +202,8 @@ const char* explanation(FixStatus status) {
       return "only one goal was seen, which gives no pose";
     case FixStatus::no_distance:
       return "the goals were seen, but their landmarks could not be triangulated";
+    case FixStatus::contradiction:
+      return "the goals' distance from each other is not that of the field";
     case FixStatus::coinciding_circles:
       return "the robot stands on the circle through all four posts";
     case FixStatus::negative_radicand:

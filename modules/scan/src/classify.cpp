@@ -55,8 +55,9 @@ void classify_vector(const std::uint8_t* pixels, int u, int v, std::size_t /*ski
 #else
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Bytes = hn::ScalableTag<std::uint8_t>;
-using Words = hn::ScalableTag<std::int16_t>;
+// At most 64 lanes: their mask fits in one word.
+using Bytes = hn::CappedTag<std::uint8_t, 64>;
+using Words = hn::Repartition<std::int16_t, Bytes>;
 using ByteVector = hn::Vec<Bytes>;
 using WordVector = hn::Vec<Words>;
 using ByteMask = hn::Mask<Bytes>;
@@ -131,7 +132,7 @@ HWY_INLINE ByteMask may_belong(const IntegerClass& colour, const Colour& c) {
 HWY_INLINE ByteMask in_class(const IntegerClass& colour, ByteVector chroma, ByteVector brightness,
                              const Opponents& even, const Opponents& odd) {
   const Words w;
-  const hn::ScalableTag<std::int8_t> s;
+  const hn::Repartition<std::int8_t, Bytes> s;
   // The words' high bytes back to their byte lanes: the even words' into the low bytes.
   const auto low = hn::Set(w, 0xFF);
   const auto outside =

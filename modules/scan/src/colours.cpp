@@ -1,5 +1,6 @@
 #include "movis/scan/colours.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "movis/core/angle.h"
@@ -9,12 +10,14 @@ namespace movis::scan {
 namespace {
 
 constexpr Range kFraction{0.0, 1.0};
+constexpr double kNarrowestDeg = 1.0;  // hue borders are kept to 0.4°
 
 void read_bounds(const YamlMap& map, const char* key, double& min, double& max) {
   const std::vector<double> bounds = map.numbers(key, 2, kFraction);
   min = bounds[0];
   max = bounds[1];
-  if (!(min < max)) map.fail(key, "must be [smaller, larger]");
+  constexpr double kGreyLevel = 1.0 / 255.0;
+  if (!(max - min >= kGreyLevel)) map.fail(key, "must be [smaller, larger], at least 1/255 apart");
 }
 
 ColourClass read_class(const YamlMap& map, ObjectClass object) {
@@ -24,8 +27,9 @@ ColourClass read_class(const YamlMap& map, ObjectClass object) {
   const std::vector<double> hue = map.numbers("hue_deg", 2, {-360.0, 360.0});
   const double width_deg = std::fmod(hue[1] - hue[0] + 720.0, 360.0);
   const bool all_hues = hue[1] - hue[0] == 360.0;
-  if (!all_hues && !(width_deg > 0.0 && width_deg < 180.0)) {
-    map.fail("hue_deg", "must span less than 180°, counter-clockwise from the first to the second, or be [0, 360]");
+  if (!all_hues && !(width_deg >= kNarrowestDeg && width_deg < 180.0)) {
+    map.fail("hue_deg",
+             "must span from 1° to less than 180°, counter-clockwise from the first to the second, or be [0, 360]");
   }
   colour.hue_from = all_hues ? 0.0 : radians(std::fmod(hue[0] + 360.0, 360.0));
   colour.hue_width = all_hues ? 2.0 * kPi : radians(width_deg);
@@ -44,7 +48,11 @@ Colours read_colours(const std::filesystem::path& file) {
     const auto object = static_cast<ObjectClass>(i);
     if (map.has(name(object))) colours.classes.push_back(read_class(map.map(name(object)), object));
   }
-  if (colours.classes.empty()) map.fail("names no colour class");
+  const bool detects = std::any_of(colours.classes.begin(), colours.classes.end(), [](const ColourClass& colour) {
+    return colour.object == ObjectClass::ball || colour.object == ObjectClass::yellow_goal ||
+           colour.object == ObjectClass::blue_goal;
+  });
+  if (!detects) map.fail("names none of the classes that are detected: ball, yellow_goal, blue_goal");
   return colours;
 }
 

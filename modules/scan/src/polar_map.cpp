@@ -13,7 +13,7 @@ namespace {
 
 cv::Mat read_mask(const omni::Camera& camera) {
   if (camera.mask.empty()) return {};
-  cv::Mat mask = cv::imread(camera.mask.string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat mask = cv::imread(camera.mask.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
   if (mask.empty())
     throw Error("{}: the mask of camera '{}' cannot be read as an image", camera.mask.string(), camera.name);
   if (mask.cols != camera.width || mask.rows != camera.height) {
@@ -43,6 +43,7 @@ std::size_t PolarMap::scanned_pixels() const {
 
 PolarMap make_polar_map(const omni::Camera& camera, int bins, double min_elevation, double max_elevation) {
   const cv::Mat mask = read_mask(camera);
+  constexpr std::uint8_t kOpen = 128;  // grey levels of a mask: a JPEG's black is not quite black
   const Eigen::Matrix3d robot_from_camera = camera.robot_from_camera();
   const double min_z = std::sin(min_elevation);
   const double max_z = std::sin(max_elevation);
@@ -55,7 +56,7 @@ PolarMap make_polar_map(const omni::Camera& camera, int bins, double min_elevati
   map.ray.resize(pixels);
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
-      if (!mask.empty() && mask.at<std::uint8_t>(v, u) == 0) continue;
+      if (!mask.empty() && mask.at<std::uint8_t>(v, u) < kOpen) continue;
       const auto ray_in_camera = unproject(camera.model, Eigen::Vector2d(u, v));
       if (!ray_in_camera) continue;
       const Eigen::Vector3d ray = robot_from_camera * *ray_in_camera;
@@ -71,8 +72,8 @@ PolarMap make_polar_map(const omni::Camera& camera, int bins, double min_elevati
   }
   if (map.runs.empty()) {
     throw Error(
-        "camera '{}' sees nothing: its model leaves no pixel of the picture with a ray between elevations "
-        "{:.1f}° and {:.1f}°",
+        "camera '{}' sees nothing: its model and mask leave no pixel of the picture with a ray between elevations "
+        "{:.1f}° and {:.1f}°; check the rig file and the scan options",
         camera.name, degrees(min_elevation), degrees(max_elevation));
   }
   return map;

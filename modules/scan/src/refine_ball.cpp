@@ -260,7 +260,7 @@ bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<
   constexpr double kLargeDisc = 1200;  // pixels: highlights shift its moments more than noise its outline
   const bool cut = moments.dark > moments.around / kTouchesBlack;
   if (cut) bearing.flags |= kCutByBody;
-  if (cut || moments.weight > kLargeDisc) {
+  if (cut || moments.beyond || moments.weight > kLargeDisc) {
     collect_outline(image, map, rows, scratch);
     const double pixel = std::sqrt(moments.covered / moments.weight);
     if (const auto cone = fit_cone(scratch.outline, pixel, scratch.values)) take_cone(*cone, bearing);

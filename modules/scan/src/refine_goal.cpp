@@ -49,8 +49,10 @@ struct Region {
   Rows rows;                          // of scratch.widened
 };
 
+// The azimuth that a pixel covers; straight below the camera it would be without bound.
 float azimuth_size(const PixelRay& ray) {
-  return std::sqrt(ray.solid_angle / (1.0F - ray.z * ray.z));
+  constexpr float kLeast = 1e-3F;
+  return std::sqrt(ray.solid_angle / std::max(kLeast, 1.0F - ray.z * ray.z));
 }
 
 std::optional<Region> find_region(const PolarMap& map, const std::vector<ObjectPixel>& object, const Edge& edge,
@@ -242,9 +244,9 @@ bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<
   const Edge right{0, +1, -kPi + segment.first * bin};
   const Edge left{segment.length - 1, -1, -kPi + (segment.first + segment.length) * bin};
   const auto crossing_at = [&](const Edge& edge) {
+    // Without a step to be found, the goal ends at the border of what is scanned, or behind something.
     const auto found = refine_edge(image, map, object, goal, edge, segment.length, options, scratch);
-    if (!found) bearing.flags |= kCutByObject;
-    Crossing crossing = found.value_or(Crossing{0.0, bin * bin, false});
+    Crossing crossing = found.value_or(Crossing{0.0, bin * bin, true});
     if (crossing.hidden) {
       bearing.flags |= kCutByObject;
       crossing.variance = std::max(crossing.variance, std::pow(0.5 * segment.length * bin, 2));

@@ -32,7 +32,7 @@ ScanOptions read_scan_options(const YamlMap& map) {
   map.allow({"bins", "min_elevation_deg", "max_elevation_deg", "min_object_pixels", "ball_gap_deg", "goal_gap_deg",
              "sensor_radius", "threshold", "refine"});
   ScanOptions options;
-  map.read_integer("bins", {36.0, 7200.0}, options.bins);
+  map.read_integer("bins", {180.0, 7200.0}, options.bins);
   map.read_number("min_elevation_deg", {-90.0, 90.0}, options.min_elevation_deg);
   map.read_number("max_elevation_deg", {-90.0, 90.0}, options.max_elevation_deg);
   if (!(options.min_elevation_deg < options.max_elevation_deg)) {

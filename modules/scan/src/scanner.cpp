@@ -28,8 +28,9 @@ Scanner::Scanner(const omni::Rig& rig, int camera, const Colours& colours, const
       scratch_(camera_.width, camera_.height) {
   for (int other = 0; other < static_cast<int>(rig.cameras.size()); ++other) {
     const Eigen::Vector2d towards = (rig.cameras[other].position - camera_.position).head<2>();
-    if (other == camera || towards.norm() <= options.sensor_radius) continue;  // itself, or one above the other
-    sensors_.push_back({std::atan2(towards.y(), towards.x()), std::asin(options.sensor_radius / towards.norm())});
+    if (other == camera || towards.norm() < 1e-6) continue;  // itself, or one above the other
+    const double reach = std::min(1.0, options.sensor_radius / towards.norm());
+    sensors_.push_back({std::atan2(towards.y(), towards.x()), std::asin(reach)});
   }
   stretches_.reserve(map_.scanned_pixels());
   segments_.reserve(kMaxSegments);

@@ -17,12 +17,10 @@ struct OwningPair {
   Intersection intersection;
 };
 
-// How nearly perpendicular the point's direction is to the pair's baseline, in 0…1: |sin| of the angle between them,
-// seen from the middle of the baseline.
-inline double perpendicularity(const Eigen::Vector2d& position1, const Eigen::Vector2d& position2,
-                               const Eigen::Vector2d& point) {
-  const Eigen::Vector2d baseline = position2 - position1;
-  const Eigen::Vector2d direction = point - 0.5 * (position1 + position2);
+// How nearly perpendicular the object's direction is to the pair's baseline, in 0…1: |sin| of the angle between the
+// baseline and the sum of the two rays. It does not ask where the rays meet, which says nothing where they hardly do.
+inline double perpendicularity(const Eigen::Vector2d& baseline, double azimuth1, double azimuth2) {
+  const Eigen::Vector2d direction(std::cos(azimuth1) + std::cos(azimuth2), std::sin(azimuth1) + std::sin(azimuth2));
   const double cross = baseline.x() * direction.y() - baseline.y() * direction.x();
   return std::abs(cross) / std::max(baseline.norm() * direction.norm(), 1e-12);
 }
@@ -40,9 +38,9 @@ inline Eigen::Vector2d position_of(const omni::Rig& rig, const Bearing& bearing)
   return rig.cameras[bearing.camera].position.head<2>();
 }
 
-// Intersects every pair of the object's bearings, `azimuth_of` each, and keeps the pair that owns the direction of its
-// own point: the largest perpendicularity over the standard deviation of the parallax. Where all bearings are equally
-// good these are the paper's areas. Without a pair that intersects, the status of the last one that was tried says why.
+// Intersects every pair of the object's bearings, `azimuth_of` each, and keeps the pair that owns the object's
+// direction: the largest perpendicularity over the standard deviation of the parallax. Without a pair that intersects,
+// the status of the last one that was tried says why.
 template <typename AzimuthOf>
 OwningPair find_owning_pair(const omni::Rig& rig, const std::vector<Bearing>& bearings, ObjectClass object,
                             AzimuthOf azimuth_of, const PairsOptions& options) {
@@ -66,7 +64,8 @@ OwningPair find_owning_pair(const omni::Rig& rig, const std::vector<Bearing>& be
         continue;
       }
       const double deviation = std::sqrt(trusted_variance(one) + trusted_variance(two));
-      const double score = perpendicularity(position1, position2, found.point) / std::max(deviation, 1e-12);
+      const double score =
+          perpendicularity(position2 - position1, azimuth_of(one), azimuth_of(two)) / std::max(deviation, 1e-12);
       if (score > best_score) {
         best_score = score;
         best = {PointStatus::ok, &one, &two, found};

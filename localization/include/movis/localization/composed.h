@@ -19,7 +19,7 @@ namespace movis::localization {
 // Covariance of (x, y, β) in m and rad: first order, from the centres' and the edges' covariance and what they share.
 // Domain: in front of both goal lines, away from the circle of radius √(Fd² + w²) about the centre spot.
 // Fails with no_goal, one_goal, no_distance (a centre or an edge without a point, θ outside (0, π), or numbers that are
-// not finite), coinciding_circles (as method2) and outside_field (as method1).
+// not finite), contradiction (the distance between the centres is far from 2 Fd), coinciding_circles (as method2) and outside_field (as method1).
 Fix composed(const triangulation::GoalLandmarks& landmarks, const Field& field);
 
 }  // namespace movis::localization

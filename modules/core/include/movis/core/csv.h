@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,7 +24,7 @@ class CsvTable {
 
   const std::string& text(std::size_t row, std::size_t column) const { return rows_[row].cells[column]; }
   double number(std::size_t row, std::size_t column) const;  // a finite number, or an Error
-  int integer(std::size_t row, std::size_t column) const;
+  std::int64_t integer(std::size_t row, std::size_t column) const;
 
  private:
   struct Row {

@@ -6,7 +6,8 @@
 namespace movis {
 
 // A file that appears under its name only when it is complete: it is written beside its place and moved there by
-// commit(). Without commit() nothing is left behind.
+// commit(). Without commit() nothing is left behind. A link is followed; what is no regular file, a device or a pipe, is
+// written to as it is.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path file);
@@ -21,6 +22,7 @@ class OutputFile {
   std::filesystem::path file_;
   std::filesystem::path draft_;
   std::ofstream stream_;
+  bool direct_ = false;  // no draft: file_ is a device or a pipe
   bool committed_ = false;
 };
 

@@ -25,6 +25,7 @@ enum class FixStatus : std::uint8_t {
   no_goal,             // neither goal was seen
   one_goal,            // one goal gives no pose
   no_distance,         // the goals were seen, but their landmarks could not be triangulated
+  contradiction,       // the goals' measured distance from each other is not that of the field file
   coinciding_circles,  // (18) is 0/0: the robot stands on the circle through all four posts
   negative_radicand,   // (17): the two circles do not meet
   outside_field,       // the solution lies far outside the field: it is not believed

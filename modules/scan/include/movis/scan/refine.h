@@ -26,9 +26,9 @@ namespace movis::scan {
 // Goal: an upright edge at azimuth φ_e is where the memberships add up to those of a step seen through a pixel:
 //   Σ w_i = Σ S((φ_e − φ_i)/δ_i),  S(x) = clamp(x + 1/2, 0, 1), over a window around the edge within the goal's height;
 //   δ is the azimuth that a pixel covers. Solved by Newton's method. Where it has no
-//   solution, as something else stands before the edge, the edge is that of the histogram, with a bin's variance. Where
-//   the goal ends at something black, an opponent or the own robot, its edge lies hidden somewhere behind that: the
-//   bearing is flagged, and the edge's standard deviation is half of the width that is seen.
+//   solution the edge is that of the histogram. There, and where the goal ends at something black, an opponent or the
+//   own robot, the edge lies hidden somewhere behind: the bearing is flagged, and the edge's standard deviation is half
+//   of the width that is seen.
 struct RefineOptions {
   double dark = 0.03;                // ε, linear light of 1
   int border_px = 2;                 // how far a mixed pixel may lie from the class's own pixels

@@ -13,8 +13,9 @@ namespace movis::triangulation {
 // MOVIS by pairs (the paper's §2.4, equations 3–4; ERRATA for the geometry that they imply).
 //
 // Every two cameras are a stereo pair, and a pair owns the directions that are most nearly perpendicular to its
-// baseline: for three cameras in an equilateral triangle the paper's areas A, B, C of 120° each. The same rule serves
-// any rig of two or more cameras.
+// baseline, whatever the rig. In an equilateral triangle that gives every pair two opposite sectors of 60°. The paper
+// gives it one of 120°, the outward side of its baseline: at that area's borders another pair looks at the object more
+// squarely, across the robot, and measures its distance better (docs/accuracy.md).
 //
 // Equations (3)–(4) divide by tan λ2 − tan λ1. Here the two directed lines
 //   c1 + s1 (cos φ1, sin φ1),   c2 + s2 (cos φ2, sin φ2)
@@ -25,7 +26,7 @@ namespace movis::triangulation {
 // order, with bearings of different cameras independent.
 
 struct PairsOptions {
-  double min_parallax_deg = 0.2;  // rays that differ by less are parallel: beyond about 100 baselines
+  double min_parallax_deg = 0.2;  // rays that differ by less are parallel: beyond 286 baselines
 };
 
 PairsOptions read_pairs_options(const YamlMap& map);
