@@ -267,7 +267,7 @@ void set_lead(const ColourClass& colour, IntegerClass& integers) {
 }  // namespace
 
 IntegerClass to_integers(const ColourClass& colour) {
-  constexpr double kScale = 74.0;
+  constexpr double kScale = 126.0;
   const auto word = [](double coefficient) { return static_cast<std::int16_t>(std::lround(kScale * coefficient)); };
   const auto at_least = [](double fraction) { return static_cast<std::uint8_t>(std::ceil(255.0 * fraction - 1e-9)); };
   const auto at_most = [](double fraction) { return static_cast<std::uint8_t>(std::floor(255.0 * fraction + 1e-9)); };

@@ -7,18 +7,20 @@
 namespace movis::scan {
 
 double adaptive_threshold(const std::vector<std::uint32_t>& counts, const ThresholdOptions& options) {
-  // The median by counting: bins hold few pixels, and what holds more than the table is long is no background.
-  constexpr std::uint32_t kTable = 256;
-  std::array<std::size_t, kTable> bins_with{};
   std::uint32_t peak = 0;
   for (const std::uint32_t count : counts) peak = std::max(peak, count);
   if (peak == 0) return options.minimum;
+  // The median by counting: bins hold few pixels, and what holds more than the table is long is no background.
+  constexpr std::uint32_t kTable = 256;
+  std::array<std::size_t, kTable> bins_with{};
   for (const std::uint32_t count : counts) ++bins_with[std::min(count, kTable - 1)];
   std::uint32_t median = 0;
   for (std::size_t below = bins_with[0]; median + 1 < kTable && 2 * below < counts.size(); below += bins_with[median]) {
     ++median;
   }
-  return std::max({options.minimum, median + options.sigmas * std::sqrt(median), options.peak_fraction * peak});
+  double level = median;
+  if (median == 0) level = std::log(static_cast<double>(counts.size()) / static_cast<double>(bins_with[0]));
+  return std::max({options.minimum, level + options.sigmas * std::sqrt(level), options.peak_fraction * peak});
 }
 
 Histograms::Histograms(int bins) : histograms_(kObjectClasses) {

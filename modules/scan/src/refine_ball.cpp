@@ -15,6 +15,47 @@ namespace {
 using Eigen::Vector3d;
 using Span = RefineScratch::Span;
 
+// A disc in the image that holds the ball and leaves out scattered pixels of its colour in the same azimuths.
+struct Disc {
+  float u = 0.0F, v = 0.0F;
+  float radius2 = 0.0F;  // squared, pixels
+
+  bool holds(const ObjectPixel& pixel) const {
+    const float du = pixel.u - u;
+    const float dv = pixel.v - v;
+    return du * du + dv * dv <= radius2;
+  }
+};
+
+template <typename Coordinate>
+float median(const std::vector<ObjectPixel>& object, std::size_t step, Coordinate coordinate,
+             std::vector<float>& values) {
+  values.clear();
+  for (std::size_t i = 0; i < object.size(); i += step) values.push_back(coordinate(object[i]));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Around the median pixel, twice as large as a disc of as many pixels: half a ball fits in, wherever it is cut. Nothing
+// where less than half of the pixels lie within: they are scattered, and no ball.
+std::optional<Disc> find_disc(const std::vector<ObjectPixel>& object, std::vector<float>& values) {
+  constexpr std::size_t kEnough = 500;  // pixels, for the median
+  constexpr float kTimes = 2.0F;
+  constexpr float kMore = 3.0F;  // pixels
+  const std::size_t step = object.size() / kEnough + 1;
+  Disc disc;
+  disc.u = median(
+      object, step, [](const ObjectPixel& pixel) { return static_cast<float>(pixel.u); }, values);
+  disc.v = median(
+      object, step, [](const ObjectPixel& pixel) { return static_cast<float>(pixel.v); }, values);
+  const float radius = kTimes * std::sqrt(static_cast<float>(object.size()) / static_cast<float>(kPi)) + kMore;
+  disc.radius2 = radius * radius;
+  const auto held = std::count_if(object.begin(), object.end(), [&](const ObjectPixel& p) { return disc.holds(p); });
+  if (2 * static_cast<std::size_t>(held) < object.size()) return std::nullopt;
+  return disc;
+}
+
 // The ball's own chromaticity: that of its most saturated fifth, as pixels on its border are mixed. A thousand pixels
 // are enough to know it.
 Chromaticity ball_chromaticity(const ImageView& image, const std::vector<ObjectPixel>& object, float dark,
@@ -247,8 +288,10 @@ bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<
   if (object.empty()) return false;
   const auto dark = static_cast<float>(options.dark);
   const Chromaticity inside = ball_chromaticity(image, object, dark, scratch.values);
-  const Rows own = collect_spans(
-      object, [](const ObjectPixel&) { return true; }, scratch.spans);
+  const auto disc = find_disc(object, scratch.values);
+  if (!disc) return false;
+  const auto in_disc = [&](const ObjectPixel& pixel) { return disc->holds(pixel); };
+  const Rows own = collect_spans(object, in_disc, scratch.spans);
   const Rows rows = widen(scratch.spans, own, options.border_px, map.width, map.height, scratch.widened);
   fill_memberships(image, scratch.widened, rows, inside, dark, scratch.memberships);
   const Moments moments = collect_moments(image, map, scratch, rows);

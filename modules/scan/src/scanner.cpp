@@ -42,6 +42,10 @@ void Scanner::check(const ImageView& image) const {
     throw Error("camera '{}': the image is {}×{}, the rig says {}×{}; use the rig file that belongs to these images",
                 camera_.name, image.width, image.height, camera_.width, camera_.height);
   }
+  if (channels(image.format) == 1) {
+    throw Error("camera '{}': the image is {}, which has no colours to scan; convert it to BGR8, RGB8 or RGBA8",
+                camera_.name, name(image.format));
+  }
   if (camera_.format && image.format != *camera_.format) {
     throw Error("camera '{}': the image is {}, the rig says {}", camera_.name, name(image.format),
                 name(*camera_.format));

@@ -23,8 +23,9 @@ struct ThresholdOptions {
 };
 
 // The adaptive threshold of §2.3, in place of compressing and enlarging the image: what is scattered over all azimuths
-// is noise, with the median m of the bins as its level and √m as its spread (Poisson); an object stands out from it
-// and is not a small part of the fullest bin:  max(minimum, m + sigmas √m, peak_fraction · peak).
+// is noise, Poisson-distributed with a level of m pixels a bin: the median of the bins, or, where that is 0, −ln of the
+// share of empty bins. An object stands out from it and is not a small part of the fullest bin:
+//   max(minimum, m + sigmas √m, peak_fraction · peak)
 double adaptive_threshold(const std::vector<std::uint32_t>& counts, const ThresholdOptions& options);
 
 // One histogram for each object class.
