@@ -205,10 +205,11 @@ class OmniRenderer {
   Light3 supersampled(const Scene& scene, int u, int v) const {
     constexpr int kSide = 8;
     Light3 sum = Light3::Zero();
-    for (int i = 0; i < kSide * kSide; ++i) {
-      const Vector2d offset((i % kSide + 0.5) / kSide - 0.5, (i / kSide + 0.5) / kSide - 0.5);
-      const auto ray = ray_of(Vector2d(u, v) + offset);
-      sum += colour(scene, ray ? hit(scene, *ray) : kNothing);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const auto ray = ray_of({u + (x + 0.5) / kSide - 0.5, v + (y + 0.5) / kSide - 0.5});
+        sum += colour(scene, ray ? hit(scene, *ray) : kNothing);
+      }
     }
     return sum / (kSide * kSide);
   }

@@ -139,8 +139,8 @@ TEST(FindSegments, KeepsTheLargestWithinItsCapacity) {
   find_segments({counts, 3.0}, 0, segments);
   EXPECT_EQ(segments.capacity(), capacity);  // the scan allocates nothing
   ASSERT_EQ(segments.size(), 3U);
-  std::vector<std::uint64_t> pixels;
-  for (const Segment& segment : segments) pixels.push_back(segment.pixels);
+  std::vector<std::uint64_t> pixels(3);
+  std::transform(segments.begin(), segments.end(), pixels.begin(), [](const Segment& s) { return s.pixels; });
   std::sort(pixels.begin(), pixels.end());
   EXPECT_EQ(pixels, (std::vector<std::uint64_t>{7, 8, 9}));
 }

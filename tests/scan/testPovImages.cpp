@@ -64,6 +64,7 @@ Results scan_folder(const std::filesystem::path& folder) {
   const bool has_goals = std::filesystem::exists(folder / "field.yaml");
   const Field field = has_goals ? read_field(folder / "field.yaml") : Field{};
   std::vector<Scanner> scanners;
+  scanners.reserve(3);
   for (int k = 0; k < 3; ++k) scanners.emplace_back(rig, k, colours, ScanOptions{});
 
   Results results;

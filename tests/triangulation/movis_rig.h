@@ -69,6 +69,7 @@ inline Bearing exact_bearing(const omni::Rig& rig, int camera, const Vector3d& p
 
 inline std::vector<Bearing> exact_bearings(const omni::Rig& rig, const Vector3d& point, double sigma = 1e-3) {
   std::vector<Bearing> bearings;
+  bearings.reserve(rig.cameras.size());
   for (int camera = 0; camera < static_cast<int>(rig.cameras.size()); ++camera) {
     bearings.push_back(exact_bearing(rig, camera, point, sigma));
   }

@@ -172,8 +172,12 @@ bool normalize(std::vector<Sample>& samples, double window, float dark) {
   outside.divide();
   constexpr double kLeastContrast = 0.1;
   if (inside.chroma - outside.chroma < kLeastContrast) return false;
+  // Noise may exceed both sides: cut off there, it would no longer average out.
+  constexpr double kExcess = 0.25;
+  const double excess = kExcess * (inside.chroma - outside.chroma);
   for (Sample& sample : samples) {
-    const double chroma = std::clamp<double>(sample.membership, outside.chroma, inside.chroma);
+    const double chroma =
+        std::clamp<double>(sample.membership, outside.chroma - excess, inside.chroma + excess);
     const double goal = outside.brightness * (chroma - outside.chroma);
     const double other = inside.brightness * (inside.chroma - chroma);
     sample.membership = static_cast<float>(goal / (goal + other));
