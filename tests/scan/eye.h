@@ -25,9 +25,8 @@ struct CameraCase {
   omni::Camera camera;
 };
 
-inline void PrintTo(const CameraCase& camera,
-                    std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest's
-  *out << camera.label;
+inline std::ostream& operator<<(std::ostream& out, const CameraCase& camera) {
+  return out << camera.label;
 }
 
 inline std::vector<CameraCase> camera_cases() {

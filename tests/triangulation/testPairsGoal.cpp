@@ -204,8 +204,8 @@ TEST(PairsGoal, JointCovarianceOfOnePair) {
   expect_joint_covariance(rig, bearings);
 }
 
-// A wide goal close by: its edges lie in different areas, at azimuths 95° and 5°, and the centre between them, so that
-// not all three come from one pair. Cameras are shared, and with them the errors of their edges.
+// A wide goal close by: its edges lie in different sectors, at azimuths 95° and 5°, and the centre between them, so
+// that not all three come from one pair. Cameras are shared, and with them the errors of their edges.
 TEST(PairsGoal, JointCovarianceOfDifferentPairs) {
   const omni::Rig rig = paper_rig();
   auto bearings = goal_bearings(rig, 1.5 * direction(radians(95.0)), 1.5 * direction(radians(5.0)));

@@ -176,8 +176,7 @@ bool normalize(std::vector<Sample>& samples, double window, float dark) {
   constexpr double kExcess = 0.25;
   const double excess = kExcess * (inside.chroma - outside.chroma);
   for (Sample& sample : samples) {
-    const double chroma =
-        std::clamp<double>(sample.membership, outside.chroma - excess, inside.chroma + excess);
+    const double chroma = std::clamp<double>(sample.membership, outside.chroma - excess, inside.chroma + excess);
     const double goal = outside.brightness * (chroma - outside.chroma);
     const double other = inside.brightness * (inside.chroma - chroma);
     sample.membership = static_cast<float>(goal / (goal + other));
