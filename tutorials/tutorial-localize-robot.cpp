@@ -127,8 +127,10 @@ bool localize(const std::filesystem::path& folder, const std::string& out) {
   const vpFont font(14);
   double text_row = 185.0;
   for (const Contender& contender : contenders) {
-    const std::string text = fmt::format("{}: mean position error {:.1f} cm of {} fixes", contender.name,
-                                         100.0 * contender.mean_error(), contender.fixes);
+    const std::string text = contender.fixes == 0
+                                 ? fmt::format("{}: no fix", contender.name)
+                                 : fmt::format("{}: mean position error {:.1f} cm of {} fixes", contender.name,
+                                               100.0 * contender.mean_error(), contender.fixes);
     fmt::print("{}\n", text);
     font.drawText(plan.image, text, vpImagePoint(text_row += 20.0, 120.0), contender.colour);
   }

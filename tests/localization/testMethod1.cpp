@@ -35,7 +35,8 @@ TEST(Method1, SolvesTheAxisAndTheCircleThroughAllEdges) {
   }
 }
 
-// ERRATA: (7) and (9) are the same number once β comes from (11), however noisy p and q are; (8) and (10) are not.
+// docs/paper.md: (7) and (9) are the same number once β comes from (11), however noisy p and q are; (8) and (10) are
+// not.
 TEST(Method1, Equations7And9Agree) {
   RandomStream stream = make_stream(3, 0);
   std::normal_distribution<double> normal(0.0, 0.1);

@@ -32,9 +32,9 @@ TEST(Method2, RoundTripOverTheField) {
   for_each_pose([](const Pose2& truth) { expect_pose(method2(landmarks_from(truth), paper_field()), truth, 1e-9); });
 }
 
-// (12)–(18) as they are printed, with the two cases of (15) and the corrections of ERRATA, give the same position; the
-// second case is that of a robot within the half circle over the goal mouth. √(r² − w²) = w |cot θ| is what (15) rests
-// on.
+// (12)–(18) as they are printed, with the two cases of (15) and the corrections of docs/paper.md, give the same
+// position; the second case is that of a robot within the half circle over the goal mouth. √(r² − w²) = w |cot θ| is
+// what (15) rests on.
 TEST(Method2, AgreesWithThePrintedEquations) {
   int wide = 0;
   const double w = 0.5;

@@ -34,7 +34,7 @@ inline omni::Camera camera_at(const Vector2d& position, double yaw) {
   return camera;
 }
 
-// M1 at 150°, M2 at 30°, M3 at 270°, each with its azimuth zero towards the centroid (ERRATA).
+// M1 at 150°, M2 at 30°, M3 at 270°, each with its azimuth zero towards the centroid (docs/paper.md).
 inline omni::Rig paper_rig(double radius = kL) {
   omni::Rig rig;
   for (const double azimuth_deg : {150.0, 30.0, 270.0}) {

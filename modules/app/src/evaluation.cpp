@@ -92,7 +92,7 @@ std::string Evaluation::table() const {
     by_label[pose.label].push_back(pose.error);
     all.push_back(pose.error);
   }
-  if (by_label.size() > 1) {
+  if (by_label.size() > 1 || by_label.count("") == 0) {
     for (const auto& [label, errors] : by_label) text += pose_line(label.empty() ? "-" : label, errors);
   }
   return text + pose_line("all", all);

@@ -48,7 +48,7 @@ void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
 
 int main(int argc, char** argv) {
   movis::app::catch_interrupts();
-  CLI::App program("MOVIS: omnidirectional vision and visual servoing of mobile robots");
+  CLI::App program("MOVIS: omnidirectional vision of mobile robots. File formats and statuses: docs/files.md");
   program.set_version_flag("--version", "movis " MOVIS_VERSION);
   program.require_subcommand(1);
   movis::app::DemoArguments demo_arguments;

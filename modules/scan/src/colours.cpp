@@ -10,7 +10,7 @@ namespace movis::scan {
 namespace {
 
 constexpr Range kFraction{0.0, 1.0};
-constexpr double kNarrowestDeg = 1.0;  // hue borders are kept to 0.35°
+constexpr double kNarrowestDeg = 1.0;  // hue borders are kept to 0.45°
 
 void read_bounds(const YamlMap& map, const char* key, double& min, double& max) {
   const std::vector<double> bounds = map.numbers(key, 2, kFraction);

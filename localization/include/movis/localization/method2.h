@@ -8,10 +8,10 @@ namespace movis::localization {
 
 // Method 2: the position where the two circles meet on which the goals appear under their measured angles.
 //
-// Source: the MOVIS paper, section 3.1 (Method 2), (12)–(18), as ERRATA corrects it. w is half the distance between a
-// goal's visible edges. Field::Fw is half the INNER width and the walls lie outside of it, so a camera in front sees
-// the silhouette end at X = ±w with w = Fw + goal_thickness, on the goal line Y = ±Fd: P1, Q1 = (−w, ±Fd) and
-// P2, Q2 = (w, ±Fd). From inside the field P1 and Q2 are the left edges of their goals.
+// Source: the MOVIS paper, section 3.1 (Method 2), (12)–(18), as docs/paper.md corrects it. w is half the distance
+// between a goal's visible edges. Field::Fw is half the INNER width and the walls lie outside of it, so a camera in
+// front sees the silhouette end at X = ±w with w = Fw + goal_thickness, on the goal line Y = ±Fd: P1, Q1 = (−w, ±Fd)
+// and P2, Q2 = (w, ±Fd). From inside the field P1 and Q2 are the left edges of their goals.
 //   θ = azimuth of the left edge − azimuth of the right edge, seen from the robot's origin, in (0, π)
 //   r = w / sin θ                                                          (12)–(13), of either goal
 //   X_Pc = X_Qc = 0                                                        (14)

@@ -20,7 +20,7 @@ struct Stretch {
 
 // A colour class as inequalities in 8-bit integers. With X = R − G and Y = B − G the hue sector's borders are
 //   from_x X + from_y Y ≥ 0   and   to_x X + to_y Y ≥ 0
-// Coefficients are rounded to 1/126, the finest for which the sums fit in 16 bits: hue borders are kept to 0.35°.
+// Coefficients are rounded to 1/126, so that the sums fit in 16 bits: hue borders are kept to 0.45°.
 struct IntegerClass {
   std::int16_t from_x = 0, from_y = 0, to_x = 0, to_y = 0;
   std::uint8_t chroma_min = 0, chroma_max = 255;

@@ -10,7 +10,7 @@
 
 namespace movis::triangulation {
 
-// MOVIS by pairs (the paper's §2.4, equations 3–4; ERRATA for the geometry that they imply).
+// MOVIS by pairs (the paper's §2.4, equations 3–4; docs/paper.md for the geometry that they imply).
 //
 // Every two cameras are a stereo pair, and a pair owns the directions that are most nearly perpendicular to its
 // baseline, whatever the rig. In an equilateral triangle that gives every pair two opposite sectors of 60°. The paper
