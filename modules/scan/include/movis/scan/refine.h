@@ -15,9 +15,11 @@ namespace movis::scan {
 // From the pixels of a class to a bearing far finer than a pixel.
 //
 // A pixel on an object's border shows a mixture, and mixing is linear in the light, not in the gamma-encoded bytes.
-// Its membership is therefore taken from the saturation in linear light along the object's own hue h,
-//   s = max(0, α cos h + β sin h) / (max(R, G, B) + ε),     w = clamp((s − s_out)/(s_in − s_out), 0, 1)
-// with s_in that of the object's inside and s_out that of its surroundings: shading and brightness cancel.
+// Colour is therefore taken in linear light as chromaticity, which shading leaves alone,
+//   c = (α, β) / (max(R, G, B) + ε)          (α, β as in colours.h)
+// and a pixel's membership w in 0…1 is how far c has come from the surroundings' c_b to the object's c_o:
+//   ball  along the line from c_b to c_o; surroundings that do not lean towards the ball's colour count as grey
+//   goal  along its hue, solved for the share of the pixel's area that it covers (refine_goal.cpp)
 //
 // Ball: a sphere is seen under a circular cone, so the solid-angle-weighted mean of its pixels' rays is the direction
 //   of its centre in any central camera, near or far, tilted or not:  direction ∝ Σ w Ω r.
