@@ -164,12 +164,18 @@ std::vector<YamlMap> YamlMap::list_of_maps(const char* key) const {
   return maps;
 }
 
-std::vector<double> YamlMap::numbers(const char* key, std::size_t count, Range range) const {
+std::vector<double> YamlMap::numbers(const char* key, Range range) const {
   const YAML::Node list = value(key);
-  if (!list.IsSequence() || list.size() != count) fail(key, fmt::format("must be a list of {} numbers", count));
+  if (!list.IsSequence()) fail(key, "must be a list of numbers");
   std::vector<double> values;
   for (const auto& item : list) values.push_back(to_number(item, where(key), range));
   return values;
+}
+
+std::vector<double> YamlMap::numbers(const char* key, std::size_t count, Range range) const {
+  const YAML::Node list = value(key);
+  if (!list.IsSequence() || list.size() != count) fail(key, fmt::format("must be a list of {} numbers", count));
+  return numbers(key, range);
 }
 
 void YamlMap::read_number(const char* key, Range range, double& target) const {

@@ -38,6 +38,7 @@ class YamlMap {
   std::string one_of(const char* key, std::initializer_list<const char*> words) const;
   YamlMap map(const char* key) const;
   std::vector<YamlMap> list_of_maps(const char* key) const;
+  std::vector<double> numbers(const char* key, Range range) const;
   std::vector<double> numbers(const char* key, std::size_t count, Range range) const;
 
   // The value replaces `target` where the key is there; this is how option structs keep the only copy of a default.
