@@ -1,12 +1,16 @@
-# cmake -DFILES=file;... -DOUTPUT=page_files.cpp -P embed.cmake
+# cmake -DROOT=folder -DFILES=file;... -DOUTPUT=page_files.cpp -P embed.cmake
 #
-# Writes a source file that holds the bytes of the files and finds them by name (src/page_files.h). Arrays of
-# characters have no limit of length, which string literals have, and need no escapes.
+# Writes a source file that holds the bytes of the files and finds them by name (src/page_files.h): the path within ROOT,
+# and outside of it just the name. Arrays of characters have no limit of length, which string literals have, and need no
+# escapes.
 set(arrays "")
 set(entries "")
 set(index 0)
 foreach(file IN LISTS FILES)
-  get_filename_component(name ${file} NAME)
+  file(RELATIVE_PATH name ${ROOT} ${file})
+  if(name MATCHES "^\\.\\.")
+    get_filename_component(name ${file} NAME)
+  endif()
   file(READ ${file} bytes HEX)
   string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
   string(APPEND arrays "const char file_${index}[] = {${bytes}};\n")

@@ -1,42 +1,13 @@
 #include "track_json.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <string_view>
 
+#include "json.h"
 #include "movis/core/angle.h"
-#include "movis/core/error.h"
 
 namespace movis::report {
 namespace {
-
-using Json = nlohmann::json;
-
-// Values, rounded to what a screen can show and null where they are not finite.
-
-constexpr int kMetreDigits = 5;
-constexpr int kDegreeDigits = 4;
-constexpr int kPixelDigits = 1;
-
-Json number(double value, int digits) {
-  if (!std::isfinite(value)) return nullptr;
-  const double scale = std::pow(10.0, digits);
-  return std::round(value * scale) / scale;
-}
-
-Json degree(double angle_deg) {
-  return number(angle_deg, kDegreeDigits);
-}
-
-template <int N>
-Json vector(const Eigen::Matrix<double, N, 1>& value, int digits) {
-  if (!value.allFinite()) return nullptr;
-  Json json = Json::array();
-  for (const double v : value) json.push_back(number(v, digits));
-  return json;
-}
 
 Json covariance(const Eigen::Matrix2d& value) {  // [xx, xy, yy], at full precision: the numbers are small
   if (!value.allFinite()) return nullptr;
@@ -49,40 +20,6 @@ Json polyline(const std::vector<Eigen::Vector2d>& points) {
     if (point.allFinite()) json.push_back(vector(point, kPixelDigits));
   }
   return json;
-}
-
-// Pictures
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t taken = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < taken ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= taken ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
-
-const char* media_type(const std::vector<std::uint8_t>& bytes) {
-  if (bytes.size() > 8 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G') return "image/png";
-  if (bytes.size() > 4 && bytes[0] == 0xff && bytes[1] == 0xd8) return "image/jpeg";
-  return nullptr;
-}
-
-Json picture(const EncodedImage& image, const std::string& camera) {
-  if (image.bytes.empty()) return nullptr;
-  const char* type = media_type(image.bytes);
-  if (type == nullptr) throw Error("report: a picture of camera {} is neither PNG nor JPEG; encode it first", camera);
-  if (image.width <= 0 || image.height <= 0) {
-    throw Error("report: a picture of camera {} has the size {}×{}; set its width and height", camera, image.width,
-                image.height);
-  }
-  return {{"src", std::string("data:") + type + ";base64," + base64(image.bytes)},
-          {"width", image.width},
-          {"height", image.height}};
 }
 
 // Cameras
@@ -113,8 +50,8 @@ Json camera_json(const CameraPicture& camera) {
   Json json = {{"name", camera.name},
                {"position", vector(camera.position, kMetreDigits)},
                {"lost", camera.lost},
-               {"image", picture(camera.image, camera.name)},
-               {"panorama", picture(camera.panorama.image, camera.name)},
+               {"image", picture_json(camera.image, camera.name)},
+               {"panorama", picture_json(camera.panorama.image, camera.name)},
                {"min_elevation_deg", degree(camera.panorama.min_elevation_deg)},
                {"max_elevation_deg", degree(camera.panorama.max_elevation_deg)},
                {"marks", Json::array()},
@@ -258,40 +195,6 @@ Json ball_in_field(const PointEstimate& ball, const std::optional<Fix>& fix) {
   return {{"point", vector(point, kMetreDigits)}, {"covariance", covariance(sum)}};
 }
 
-Json area_json(const Field::Area& area) {
-  return {{"depth", number(area.depth, kMetreDigits)}, {"width", number(area.width, kMetreDigits)}};
-}
-
-Json field_json(const std::optional<Field>& field) {
-  if (!field) return nullptr;
-  return {{"half_width", number(field->half_width, kMetreDigits)},
-          {"half_length", number(field->half_length, kMetreDigits)},
-          {"circle", number(field->circle, kMetreDigits)},
-          {"line", number(field->line, kMetreDigits)},
-          {"Fd", number(field->Fd, kMetreDigits)},
-          {"Fw", number(field->Fw, kMetreDigits)},
-          {"goal_depth", number(field->goal_depth, kMetreDigits)},
-          {"goal_thickness", number(field->goal_thickness, kMetreDigits)},
-          {"white_goals", field->goals == Field::Goals::white},
-          {"penalty_area", area_json(field->penalty_area)},
-          {"goal_area", area_json(field->goal_area)},
-          {"corner_arc", number(field->corner_arc, kMetreDigits)}};
-}
-
-// "<" would let "</script" or "<!--" end or change the element that the JSON stands in.
-std::string escape_for_script(const std::string& json) {
-  std::string escaped;
-  escaped.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<') {
-      escaped += "\\u003c";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
 }  // namespace
 
 std::string to_json(const TrackFrame& frame) {
@@ -310,9 +213,9 @@ std::string to_json(const TrackFrame& frame) {
       {"fix_error", fix_error(frame.fix, frame.true_pose)},
       {"ball_in_field", ball_in_field(frame.ball_in_robot, frame.fix)},
       {"true_ball_in_field", frame.true_ball_in_field ? vector(*frame.true_ball_in_field, kMetreDigits) : Json()},
-      {"field", field_json(frame.field)}};
+      {"field", frame.field ? field_json(*frame.field) : Json()}};
   for (const CameraPicture& camera : frame.cameras) json["cameras"].push_back(camera_json(camera));
-  return escape_for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return script_text(json);
 }
 
 }  // namespace movis::report

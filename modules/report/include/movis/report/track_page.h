@@ -11,6 +11,7 @@
 #include "movis/core/field.h"
 #include "movis/core/pose.h"
 #include "movis/core/status.h"
+#include "movis/report/picture.h"
 
 // A page that shows, frame by frame, what the cameras saw and what was measured from it: pictures with the bearings
 // drawn in, panoramas, histograms, the plan of the field, and the errors where the truth is known.
@@ -20,12 +21,6 @@
 // Lengths are metres, pixels have their origin at the centre of the top-left pixel. A number that is not finite is
 // shown as unknown, and what would need it is not drawn.
 namespace movis::report {
-
-struct EncodedImage {
-  std::vector<std::uint8_t> bytes;  // a whole PNG or JPEG file; empty: there is no picture
-  int width = 0;                    // pixels
-  int height = 0;
-};
 
 // A picture unrolled as one looks outwards: the azimuth falls evenly from +180° at the left border to −180° at the
 // right one, the elevation from max at the top border to min at the bottom one. The page turns it to have the

@@ -5,10 +5,7 @@ function drawLegend() {
     line: {stroke: classOf(object).colour, "stroke-width": 3}, text: classOf(object).label}));
   entries.push({line: {stroke: "#5b6675", "stroke-width": 1.5, "stroke-dasharray": "4 3"},
                 text: "dashed: a flagged bearing, part of the object may be hidden; in a histogram, the threshold"});
-  const item = d3.select("#legend").selectAll("li").data(entries).enter().append("li");
-  item.append("svg").attr({width: 24, height: 10, "aria-hidden": true})
-      .append("line").attr({x1: 1, x2: 23, y1: 5, y2: 5}).each(function (d) { d3.select(this).attr(d.line); });
-  item.append("span").text(d => d.text);
+  addLegend(d3.select("#legend"), entries);
 }
 
 // The median and the largest of the known values, each with its unit; how many there are is said elsewhere.
@@ -73,26 +70,8 @@ function fillCell(cell) {
   }
 }
 
-function addStatus(parent, status) {
-  const text = status === null ? "–" : status.replace(/_/g, " ");
-  parent.append("span").attr("class", status === "ok" || status === null ? "status" : "status bad").text(text);
-}
-
 function drawFrames(frames, select) {
   const body = addTable(d3.select("#frames"), "numbers selectable", FRAME_GROUPS, FRAME_COLUMNS);
   body.selectAll("tr").data(frames).enter().append("tr").attr("class", "frame").on("click", (d, i) => select(i))
       .selectAll("td").data(frameCells).enter().append("td").each(fillCell);
-}
-
-// Marks the row and scrolls the table, not the page, until it can be seen.
-function markFrame(index) {
-  const box = d3.select("#frames").node();
-  const head = box.querySelector("thead").offsetHeight;
-  d3.select("#frames tbody").selectAll("tr").classed("selected", (d, i) => i === index)
-      .attr("aria-current", (d, i) => i === index ? "true" : null)
-      .filter((d, i) => i === index).each(function () {
-        const top = this.offsetTop - head;
-        const bottom = this.offsetTop + this.offsetHeight - box.clientHeight;
-        box.scrollTop = Math.min(top, Math.max(bottom, box.scrollTop));
-      });
 }

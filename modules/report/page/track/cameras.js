@@ -12,7 +12,7 @@ const titleOf = mark => `${classOf(mark.object).label}: azimuth ${degrees(mark.a
 function drawCameras(frame) {
   const box = d3.select("#cameras").html("");
   const highest = d3.max(frame.cameras, c => d3.max(c.histograms, h => d3.max(h.counts.concat(h.threshold)))) || 1;
-  const column = box.selectAll("article").data(frame.cameras).enter().append("article").attr("class", "camera");
+  const column = box.selectAll("article").data(frame.cameras).enter().append("article").attr("class", "camera panel");
   column.each(function (camera) { drawCamera(d3.select(this), camera, highest); });
   if (frame.cameras.length === 0) box.append("p").attr("class", "absent").text("This frame holds no cameras.");
 }
@@ -28,10 +28,6 @@ function drawCamera(column, camera, highest) {
   if (camera.panorama && !camera.lost) drawPanorama(column, camera, width);
   if (camera.histograms.some(h => h.counts.length > 0)) drawHistogram(column, camera, width, highest);
   drawMarkTable(column, camera);
-}
-
-function addAbsent(parent, text) {
-  parent.append("div").attr("class", "absent").text(text);
 }
 
 // The omnidirectional picture with the bearings drawn in. Pixel (0,0) is the centre of the top-left pixel.

@@ -79,3 +79,48 @@ function addTable(parent, className, groups, columns) {
   head.append("tr").selectAll("th").data(columns).enter().append("th").attr("scope", "col").text(d => d);
   return table.append("tbody");
 }
+
+function addStatus(parent, status, good = "ok") {
+  const text = status === null ? "–" : status.replace(/_/g, " ");
+  parent.append("span").attr("class", status === good || status === null ? "status" : "status bad").text(text);
+}
+
+function addAbsent(parent, text) {
+  parent.append("div").attr("class", "absent").text(text);
+}
+
+// Entries {line, text} or {path, text}: the attributes of a stroke and what it stands for. Returns the items.
+function addLegend(list, entries) {
+  const item = list.selectAll("li").data(entries).enter().append("li");
+  item.append("svg").attr({width: 24, height: 10, "aria-hidden": true})
+      .each(function ({line, path}) {
+        const shape = d3.select(this).append(path ? "path" : "line");
+        shape.attr(path || {x1: 1, x2: 23, y1: 5, y2: 5, ...line});
+      });
+  item.append("span").text(d => d.text);
+  return item;
+}
+
+// Drawings have the width of their place, so a new width draws them anew.
+function redrawOnResize(draw) {
+  let width = window.innerWidth;
+  let timer = 0;
+  d3.select(window).on("resize", () => {
+    if (window.innerWidth === width) return;
+    width = window.innerWidth;
+    clearTimeout(timer);
+    timer = setTimeout(draw, 100);
+  });
+}
+
+// Marks the row of a table that scrolls in its box, and scrolls the box, not the page, until the row can be seen.
+function markRow(box, index) {
+  const head = box.querySelector("thead").offsetHeight;
+  d3.select(box).select("tbody").selectAll("tr").classed("selected", (d, i) => i === index)
+      .attr("aria-current", (d, i) => i === index ? "true" : null)
+      .filter((d, i) => i === index).each(function () {
+        const top = this.offsetTop - head;
+        const bottom = this.offsetTop + this.offsetHeight - box.clientHeight;
+        box.scrollTop = Math.min(top, Math.max(bottom, box.scrollTop));
+      });
+}

@@ -1,7 +1,6 @@
-// The plan from above: the field where there is one, else the robot frame; and close-ups of the two estimates.
+// The plan of a frame: the field where there is one, else the robot frame; and close-ups of the two estimates.
 
 const ELLIPSE_95 = Math.sqrt(5.991);  // radius in standard deviations that holds 95 % of a planar distribution
-const PLAN = {left: 46, right: 12, top: 10, bottom: 42};
 
 // A pose maps the robot frame to the frame of the plan.
 const IDENTITY = {x: 0, y: 0, beta_deg: 0};
@@ -35,84 +34,32 @@ function planOf(frame) {
 // Half the width and height that the plan must show, metres.
 function reach(plan, frame) {
   const points = [plan.ball && plan.ball.point, plan.trueBall].filter(known);
-  const far = axis => d3.max(points, p => Math.abs(p[axis])) || 0;
-  if (!plan.field) {
-    const cameras = d3.max(frame.cameras, c => c.position && Math.hypot(...c.position)) || 0;
-    const radius = 1.15 * Math.max(0.8, 3 * cameras, far(0), far(1));
-    return [radius, radius];
-  }
-  const margin = 0.06 * plan.field.half_length;
-  const shown = (half, point) => margin + Math.max(half, Math.min(point, 1.5 * half));
-  return [shown(plan.field.half_width, far(0)),
-          shown(Math.max(plan.field.half_length, plan.field.Fd + plan.field.goal_depth), far(1))];
+  if (plan.field) return fieldReach(plan.field, points);
+  const cameras = d3.max(frame.cameras, c => c.position && Math.hypot(...c.position)) || 0;
+  const radius = 1.15 * Math.max(0.8, 3 * cameras, farthest(points, 0), farthest(points, 1));
+  return [radius, radius];
 }
 
 function drawPlan(frame) {
   const box = d3.select("#plan").html("");
   const plan = planOf(frame);
   const [halfWidth, halfHeight] = reach(plan, frame);
-  const width = contentWidth(box);
-  const room = width - PLAN.left - PLAN.right;
-  const tallest = Math.min(Math.max(420, 0.95 * room), 640);
-  const scale = Math.min(room / (2 * halfWidth), tallest / (2 * halfHeight));  // pixels a metre
-  const [w, h] = [2 * halfWidth * scale, 2 * halfHeight * scale];
-  const left = PLAN.left + (room - w) / 2;
-  const svg = addSvg(box, width, h + PLAN.top + PLAN.bottom, plan.caption).attr("class", "plan");
-  const x = d3.scale.linear().domain([-halfWidth, halfWidth]).range([0, w]);
-  const y = d3.scale.linear().domain([-halfHeight, halfHeight]).range([h, 0]);
-  const clip = addClip(svg, left, PLAN.top, w, h);
-  clip.append("rect").attr({class: plan.field ? "carpet" : "floor", width: w, height: h});
-  const at = {x, y, scale, point: p => [x(p[0]), y(p[1])]};
+  const at = addPlan(box, [halfWidth, halfHeight], plan.axes, plan.caption);
+  const {clip} = at;
+  clip.append("rect").attr({class: plan.field ? "carpet" : "floor", width: "100%", height: "100%"});
   if (plan.field) drawField(clip, plan.field, at); else drawRings(clip, Math.hypot(halfWidth, halfHeight), at);
   drawRays(clip, frame, plan.pose, at, 2 * Math.hypot(halfWidth, halfHeight));
   if (plan.truth) drawRobot(clip, frame, plan.truth, at, "truth");
   if (plan.measured) drawRobot(clip, frame, plan.measured, at, "estimate");
   if (plan.ball) drawEstimate(clip, plan.ball.point, plan.ball.covariance, at, classOf("ball").colour);
   if (plan.trueBall) drawTruth(clip, plan.trueBall, at);
-  addPlanAxes(svg, plan.axes, x, y, left, w, h);
   drawPlanCaption(box, plan);
-}
-
-function addPlanAxes(svg, labels, x, y, left, w, h) {
-  addAxis(svg, "x", left, PLAN.top + h, d3.svg.axis().scale(x).orient("bottom").ticks(w / 60).tickSize(5));
-  addAxis(svg, "y", left, PLAN.top, d3.svg.axis().scale(y).orient("left").ticks(h / 50).tickSize(5));
-  addText(svg, "axis-label", left + w / 2, PLAN.top + h + 34, labels[0]);
-  addVerticalLabel(svg, left - 34, PLAN.top + h / 2, labels[1]);
 }
 
 function drawPlanCaption(box, plan) {
   const robot = plan.field ? " Violet: the estimated pose; dashed: the true one." : "";
   box.append("p").attr("class", "caption").text(`${plan.caption}${robot} Thin lines: bearings from each camera. ` +
       "Ball: dot with 95 % ellipse as measured, cross where it truly is.");
-}
-
-function drawField(svg, field, at) {
-  const lines = svg.append("g").attr({class: "lines", "stroke-width": Math.max(1, field.line * at.scale)});
-  const halfWidth = field.half_width - field.line / 2;
-  const halfLength = field.half_length - field.line / 2;
-  const rectangle = (parent, x1, y1, x2, y2) => parent.append("rect").attr({
-    x: at.x(Math.min(x1, x2)), y: at.y(Math.max(y1, y2)),
-    width: Math.abs(x2 - x1) * at.scale, height: Math.abs(y2 - y1) * at.scale});
-  rectangle(lines, -halfWidth, -halfLength, halfWidth, halfLength);
-  lines.append("line").attr({x1: at.x(-halfWidth), x2: at.x(halfWidth), y1: at.y(0), y2: at.y(0)});
-  lines.append("circle").attr({cx: at.x(0), cy: at.y(0), r: field.circle * at.scale});
-  for (const end of [1, -1]) {
-    for (const area of [field.penalty_area, field.goal_area].filter(a => a.depth > 0)) {
-      rectangle(lines, -area.width / 2, end * halfLength, area.width / 2, end * (halfLength - area.depth));
-    }
-    for (const side of [1, -1]) drawCornerArc(lines, field.corner_arc, side * halfWidth, end * halfLength, at);
-    const outer = field.Fw + field.goal_thickness;
-    rectangle(svg, -outer, end * field.Fd, outer, end * (field.Fd + field.goal_depth))
-        .attr("class", "goal " + (field.white_goals ? "white" : end > 0 ? "yellow" : "blue"));
-  }
-}
-
-function drawCornerArc(lines, radius, x, y, at) {
-  if (!(radius > 0)) return;
-  const r = radius * at.scale;
-  const sweep = x * y > 0 ? 0 : 1;
-  lines.append("path").attr("d", `M${at.x(x - Math.sign(x) * radius)},${at.y(y)}` +
-      `A${r},${r} 0 0 ${sweep} ${at.x(x)},${at.y(y - Math.sign(y) * radius)}`);
 }
 
 function drawRings(svg, radius, at) {
@@ -195,7 +142,7 @@ function drawTruth(svg, point, at) {
 
 // An estimate beside the truth, large enough to see the error. The origin is the truth, or without it the estimate.
 function drawCloseUp(box, {title, axes, point, covariance, truth, colour}) {
-  const figure = box.append("figure").attr("class", "close-up");
+  const figure = box.append("figure").attr("class", "close-up panel");
   const origin = truth || point;
   figure.append("figcaption").text(title + (truth ? ", relative to the truth" : ", relative to the estimate"));
   const width = contentWidth(figure);

@@ -24,7 +24,7 @@ function select(index) {
   d3.select("#selected").text(headline(frames[index], index));
   d3.select("#previous").property("disabled", index === 0);
   d3.select("#next").property("disabled", index === frames.length - 1);
-  markFrame(index);
+  markRow(document.getElementById("frames"), index);
   drawFrame();
   location.replace(`#${index + 1}`);
 }
@@ -40,18 +40,6 @@ function onKey() {
 
 const indexOfAddress = () => Math.max(0, Math.min(frames.length, parseInt(location.hash.slice(1), 10) || 1) - 1);
 
-// Drawings have the width of their place, so a new width draws them anew.
-function redrawOnResize() {
-  let width = window.innerWidth;
-  let timer = 0;
-  d3.select(window).on("resize", () => {
-    if (window.innerWidth === width) return;
-    width = window.innerWidth;
-    clearTimeout(timer);
-    timer = setTimeout(drawFrame, 100);
-  });
-}
-
 function start() {
   if (frames.length === 0) {
     d3.selectAll("#legend, #selection, #frame, #sets").remove();
@@ -66,7 +54,7 @@ function start() {
   d3.select(document).on("keydown", onKey);
   d3.select(window).on("hashchange", () => select(indexOfAddress()));
   select(indexOfAddress());
-  redrawOnResize();
+  redrawOnResize(drawFrame);
 }
 
 start();
