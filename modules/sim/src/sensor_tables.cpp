@@ -1,0 +1,59 @@
+#include "sensor_tables.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "sensor.h"
+#include "srgb.h"
+
+namespace movis::sim {
+namespace {
+
+std::array<std::int32_t, kToneSteps + 1> make_tone() {
+  std::array<std::int32_t, kToneSteps + 1> tone{};
+  for (int i = 0; i <= kToneSteps; ++i) {
+    tone[i] = static_cast<std::int32_t>(std::lround(255.0 * srgb_of_linear(static_cast<double>(i) / kToneSteps)));
+  }
+  return tone;
+}
+
+// A Gaussian's samples from its middle outwards, without those below a thousandth of it, scaled to a whole sum of 1.
+std::vector<float> gaussian_taps(double sigma) {
+  constexpr double kLeast = 1e-3;
+  std::vector<double> taps{1.0};
+  double sum = 1.0;
+  for (int k = 1; k <= kMostRadius && sigma > 0.0; ++k) {
+    const double tap = std::exp(-0.5 * k * k / (sigma * sigma));
+    if (tap < kLeast) break;
+    taps.push_back(tap);
+    sum += 2.0 * tap;
+  }
+  std::vector<float> scaled;
+  for (const double tap : taps) scaled.push_back(static_cast<float>(tap / sum));
+  return scaled;
+}
+
+}  // namespace
+
+const std::int32_t* tone_table() {
+  static const std::array<std::int32_t, kToneSteps + 1> table = make_tone();
+  return table.data();
+}
+
+SensorRow make_sensor_row(const Sensor& sensor, int width) {
+  SensorRow row;
+  row.taps = gaussian_taps(sensor.blur_px);
+  row.gains = {static_cast<float>(sensor.exposure * sensor.red_gain), static_cast<float>(sensor.exposure),
+               static_cast<float>(sensor.exposure * sensor.blue_gain)};
+  row.width = width;
+  row.row_floats = (width + 2 * row.radius() + 2 * kMostLanes - 1) / kMostLanes * kMostLanes;
+  if (sensor.full_well > 0.0) {
+    const double read = sensor.read_noise / sensor.full_well;
+    row.read_variance = static_cast<float>(read * read);
+    row.shot_variance = static_cast<float>(1.0 / sensor.full_well);
+  }
+  return row;
+}
+
+}  // namespace movis::sim
