@@ -3,108 +3,134 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <map>
-#include <vector>
+#include <exception>
+#include <mutex>
+#include <opencv2/core/utility.hpp>
+#include <thread>
 
-#include "evaluation.h"
 #include "interrupt.h"
+#include "movis/core/error.h"
+#include "movis/core/output_file.h"
 #include "movis/core/paths.h"
-#include "movis/grab/dataset_source.h"
-#include "movis/grab/truth.h"
-#include "movis/localization/localizer.h"
-#include "movis/pipeline/pipeline.h"
-#include "pictures.h"
+#include "movis/experiments/contender.h"
+#include "movis/experiments/match.h"
+#include "movis/experiments/statistics.h"
 #include "progress.h"
 
 namespace movis::app {
 namespace {
 
-constexpr const char* kSets[] = {"field", "field-obstacles", "open", "near"};
-constexpr ObjectClass kShown[] = {ObjectClass::ball, ObjectClass::yellow_goal, ObjectClass::blue_goal};
+constexpr int kShownStarts = 6;          // on the page
+constexpr double kViewInterval = 0.5;    // seconds, between the pictures that it shows
 
-report::CameraPicture camera_picture(const pipeline::Pipeline& pipeline, std::size_t index, const PictureMaker& maker,
-                                     const grab::FrameSet& images) {
-  const omni::Camera& camera = pipeline.rig.cameras[index];
-  report::CameraPicture picture;
-  picture.name = camera.name;
-  picture.position = camera.position.head<2>();
-  picture.lost = images.frames[index].lost();
-  if (picture.lost) return picture;
-  picture.image = maker.picture(images.memory[index]);
-  picture.panorama = maker.panorama(images.memory[index]);
-  for (const Bearing& bearing : pipeline.estimate.bearings) {
-    if (bearing.camera == static_cast<int>(index)) picture.marks.push_back(mark(camera, bearing));
-  }
-  for (const ObjectClass object : kShown) {
-    const scan::Histogram& histogram = pipeline.scanners[index].histogram(object);
-    picture.histograms.push_back({object, histogram.counts, histogram.threshold});
-  }
-  return picture;
-}
+struct Job {
+  std::string contender;
+  int start = 0;
+};
 
-report::TrackFrame track_frame(const std::string& set, const pipeline::Pipeline& pipeline,
-                               const std::vector<PictureMaker>& makers, const grab::FrameSet& images,
-                               const grab::Truth* truth) {
-  report::TrackFrame frame;
-  frame.set = set;
-  frame.frame = static_cast<int>(images.index);
-  for (std::size_t i = 0; i < makers.size(); ++i) {
-    frame.cameras.push_back(camera_picture(pipeline, i, makers[i], images));
-  }
-  frame.ball_in_robot = pipeline.estimate.ball_in_robot;
-  frame.fix = pipeline.estimate.fix;
-  frame.tick_us = pipeline.estimate.tick_us;
-  frame.field = pipeline.field;
-  if (truth != nullptr) {
-    frame.label = truth->label;
-    frame.true_pose = truth->world_from_robot;
-    frame.true_ball_in_robot = true_ball_in_robot(*truth);
-    frame.true_ball_in_field = truth->ball_in_field.head<2>();
-  }
-  return frame;
-}
-
-void track_set(const std::string& set, report::TrackPage& page, Evaluation& evaluation) {
-  const std::filesystem::path folder = data_file("images/" + set);
-  grab::DatasetSource source(grab::read_dataset(folder));
-  const std::map<std::int64_t, grab::Truth> truth = grab::read_truth(folder / "truth.csv");
-  const grab::Dataset& dataset = source.dataset();
-  std::optional<Field> field;
-  if (dataset.field_file) field = read_field(*dataset.field_file);
-  pipeline::Pipeline pipeline(dataset.rig, field, scan::read_colours(data_file("colours/default.yaml")), {},
-                              localization::find_localizer("composed"));
-  std::vector<PictureMaker> makers;
-  for (const omni::Camera& camera : dataset.rig.cameras) makers.emplace_back(camera);
-  source.open();
-  for (grab::FrameSet images; source.acquire(images);) {
+// Plays the jobs that are left, one after the other, on a match of its own.
+void work(const sim::Scenario& scenario, const DemoArguments& arguments, const std::vector<Job>& jobs,
+          std::atomic<std::size_t>& next, std::vector<report::Episode>& episodes, Progress& progress,
+          std::mutex& progress_mutex) {
+  experiments::MatchOptions options;
+  options.localizer = arguments.localizer;
+  experiments::Match match(scenario, options);
+  for (std::size_t i = next++; i < jobs.size(); i = next++) {
     check_interrupts();
-    step(pipeline, images);
-    const auto found = truth.find(images.index);
-    const grab::Truth* true_state = found != truth.end() ? &found->second : nullptr;
-    if (true_state != nullptr) evaluation.add(pipeline.estimate, *true_state);
-    page.frames.push_back(track_frame(set, pipeline, makers, images, true_state));
+    const auto controller = experiments::make_controller(jobs[i].contender, match.task());
+    const double view_interval = jobs[i].start < kShownStarts ? kViewInterval : 0.0;
+    const std::uint64_t seed = arguments.seed + static_cast<std::uint64_t>(jobs[i].start);
+    episodes[i] = match.play(jobs[i].contender, *controller, seed, view_interval);
+    const std::lock_guard lock(progress_mutex);
+    progress.advance();
   }
+}
+
+std::vector<report::Episode> play_all(const sim::Scenario& scenario, const DemoArguments& arguments) {
+  std::vector<Job> jobs;
+  for (int start = 0; start < arguments.episodes; ++start) {
+    for (const std::string& contender : arguments.controllers) jobs.push_back({contender, start});
+  }
+  std::vector<report::Episode> episodes(jobs.size());
+  std::atomic<std::size_t> next = 0;
+  Progress progress("episodes", jobs.size());
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto run = [&] {
+    try {
+      work(scenario, arguments, jobs, next, episodes, progress, mutex);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failure = std::current_exception();
+      next = jobs.size();
+    }
+  };
+  cv::setNumThreads(1);  // every core plays an episode of its own
+  std::vector<std::thread> threads;
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t i = 1; i < std::min(cores, jobs.size()); ++i) threads.emplace_back(run);
+  run();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+  return episodes;
+}
+
+void write_rows(const std::vector<report::Episode>& episodes, const DemoArguments& arguments,
+                const sim::Scenario& scenario) {
+  OutputFile file(*arguments.rows);
+  file.stream() << "scenario,contender,localizer,seed,version,outcome,duration_s,kicks\n";
+  for (const report::Episode& e : episodes) {
+    file.stream() << fmt::format("{},{},{},{},{},{},{:.4f},{}\n", scenario.name, e.contender, arguments.localizer,
+                                 e.seed, MOVIS_VERSION, e.outcome, e.duration_s, e.kicks);
+  }
+  file.commit();
+}
+
+report::EpisodePage make_page(std::vector<report::Episode> episodes, const DemoArguments& arguments,
+                              const sim::Scenario& scenario,
+                              const std::vector<report::ContenderSummary>& summaries) {
+  report::EpisodePage page;
+  page.title = "MOVIS: approach and shoot";
+  page.version = "movis " MOVIS_VERSION;
+  page.command = fmt::format("movis demo --episodes {} --seed {}", arguments.episodes, arguments.seed);
+  page.field = *scenario.arena.field;
+  page.robot_radius = scenario.robot.radius;
+  page.ball_radius = sim::kBallRadius;
+  for (const sim::Obstacle& obstacle : scenario.arena.obstacles) {
+    page.obstacles.push_back({obstacle.position, obstacle.radius});
+  }
+  for (const omni::Camera& camera : scenario.rig.cameras) page.camera_names.push_back(camera.name);
+  page.summaries = summaries;
+  const auto not_shown = [](const report::Episode& episode) { return episode.views.empty(); };
+  episodes.erase(std::remove_if(episodes.begin(), episodes.end(), not_shown), episodes.end());
+  page.episodes = std::move(episodes);
+  return page;
 }
 
 }  // namespace
 
 void demo(const DemoArguments& arguments) {
-  report::TrackPage page;
-  page.title = "MOVIS: three omnidirectional cameras see, measure and localize";
-  page.version = "movis " MOVIS_VERSION;
-  page.command = fmt::format("movis demo --out {}", arguments.out.string());
-  Progress progress("demo", std::size(kSets));
-  for (const char* set : kSets) {
-    Evaluation evaluation;
-    track_set(set, page, evaluation);
-    progress.advance();
-    fmt::print("{}: {}", set, evaluation.table());
+  const sim::Scenario scenario =
+      sim::read_scenario(arguments.scenario ? *arguments.scenario : data_file("scenarios/resting-ball.yaml"));
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<report::Episode> episodes = play_all(scenario, arguments);
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  std::vector<report::ContenderSummary> summaries;
+  for (const std::string& contender : arguments.controllers) {
+    summaries.push_back(experiments::summarize(contender, episodes));
   }
-  report::write_track_page(page, arguments.out);
-  progress.finish();
-  fmt::print("{} frames, open in a browser: {}\n", page.frames.size(),
-             std::filesystem::absolute(arguments.out).string());
+  double played_s = 0.0;
+  for (const report::Episode& episode : episodes) played_s += episode.duration_s;
+  if (arguments.rows) write_rows(episodes, arguments, scenario);
+  report::write_episode_page(make_page(std::move(episodes), arguments, scenario, summaries), arguments.out);
+
+  fmt::print("{}: {} starts, seeds {}–{}\n{}", scenario.name, arguments.episodes, arguments.seed,
+             arguments.seed + static_cast<std::uint64_t>(arguments.episodes) - 1, experiments::table_of(summaries));
+  fmt::print("{:.0f} s of play in {:.0f} s: {:.1f} × real time\n", played_s, took_s, played_s / took_s);
+  fmt::print("open in a browser: {}\n", std::filesystem::absolute(arguments.out).string());
 }
 
 }  // namespace movis::app

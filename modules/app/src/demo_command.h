@@ -1,15 +1,25 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace movis::app {
 
 struct DemoArguments {
   std::filesystem::path out = "movis-demo.html";
+  std::optional<std::filesystem::path> rows;
+  std::optional<std::filesystem::path> scenario;
+  std::vector<std::string> controllers = {"fuzzy", "pbvs"};
+  std::string localizer = "composed";
+  int episodes = 6;
+  std::uint64_t seed = 1;  // of the first episode; the others count on from it
 };
 
-// `movis demo`: tracks the shipped images and writes one self-contained HTML page that shows what the cameras saw and
-// what was measured, against the truth. Throws an Error, and then leaves no file behind.
+// `movis demo`: plays episodes of approach-and-shoot on rendered images, every controller from the same starts, and writes
+// one self-contained HTML page about them. Throws an Error, and then leaves no file behind.
 void demo(const DemoArguments& arguments);
 
 }  // namespace movis::app

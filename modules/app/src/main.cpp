@@ -39,8 +39,20 @@ void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
 }
 
 void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
-  CLI::App* demo = program.add_subcommand("demo", "Track the shipped images and write one HTML page about it");
+  CLI::App* demo = program.add_subcommand("demo", "Play approach-and-shoot on rendered images; one HTML page about it");
   demo->add_option("--out", arguments.out, "The page")->capture_default_str();
+  demo->add_option("--episodes", arguments.episodes, "Starts; every controller plays each of them")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  demo->add_option("--seed", arguments.seed, "Of the first start; the others count on from it")->capture_default_str();
+  demo->add_option("--scenario", arguments.scenario, "Default: data/scenarios/resting-ball.yaml");
+  demo->add_option("--controllers", arguments.controllers, "fuzzy[:FILE] and pbvs[:FILE], separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  demo->add_option("--localizer", arguments.localizer, "How goals become a pose")
+      ->check(CLI::IsMember(localizer_names()))
+      ->capture_default_str();
+  demo->add_option("--rows", arguments.rows, "A CSV file, one row an episode");
   demo->callback([&arguments] { movis::app::demo(arguments); });
 }
 

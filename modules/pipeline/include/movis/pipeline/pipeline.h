@@ -14,6 +14,7 @@
 #include "movis/scan/scanner.h"
 #include "movis/triangulation/goal_points.h"
 #include "movis/triangulation/pairs.h"
+#include "movis/world/world.h"
 
 // The one data path:  images → scan → bearings → triangulation → points in the robot frame → localization → fix.
 namespace movis::pipeline {
@@ -21,9 +22,11 @@ namespace movis::pipeline {
 struct Options {
   scan::ScanOptions scan;
   triangulation::PairsOptions triangulation;
+  world::WorldOptions world;
 };
 
-// Reads options.yaml strictly: the maps `scan` and `triangulation`, each optional; what is left out keeps its default.
+// Reads options.yaml strictly: the maps `scan`, `triangulation` and `world`, each optional; what is left out keeps its
+// default.
 Options read_options(const std::filesystem::path& file);
 
 // What one instant tells. The vectors are reused from tick to tick.

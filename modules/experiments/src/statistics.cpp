@@ -1,0 +1,91 @@
+#include "movis/experiments/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+
+namespace movis::experiments {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+double median(std::vector<double> values) {
+  if (values.empty()) return kUnknown;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  double value() const { return count > 0 ? sum / count : kUnknown; }
+};
+
+}  // namespace
+
+Interval wilson_interval(int successes, int trials) {
+  if (trials <= 0) return {0.0, 1.0};
+  constexpr double kZ = 1.959963984540054;
+  const double n = trials;
+  const double p = successes / n;
+  const double middle = p + kZ * kZ / (2.0 * n);
+  const double half = kZ * std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
+  const double scale = 1.0 / (1.0 + kZ * kZ / n);
+  return {std::max(0.0, scale * (middle - half)), std::min(1.0, scale * (middle + half))};
+}
+
+report::ContenderSummary summarize(const std::string& contender, const std::vector<report::Episode>& episodes) {
+  report::ContenderSummary summary;
+  summary.contender = contender;
+  std::map<std::string, int> outcomes;
+  std::vector<double> goal_times;
+  Mean pose_error, ball_error;
+  for (const report::Episode& episode : episodes) {
+    if (episode.contender != contender) continue;
+    ++summary.episodes;
+    ++outcomes[episode.outcome];
+    if (episode.outcome == "goal") goal_times.push_back(episode.duration_s);
+    for (const report::EpisodeTick& tick : episode.ticks) {
+      if (tick.pose) pose_error.add((tick.pose->translation() - tick.true_pose.translation()).norm());
+      if (tick.ball) ball_error.add((*tick.ball - tick.true_ball.head<2>()).norm());
+    }
+  }
+  summary.goals = static_cast<int>(goal_times.size());
+  const Interval rate = wilson_interval(summary.goals, summary.episodes);
+  summary.rate_low = rate.low;
+  summary.rate_high = rate.high;
+  summary.outcomes.assign(outcomes.begin(), outcomes.end());
+  summary.median_time_s = median(goal_times);
+  summary.pose_error_m = pose_error.value();
+  summary.ball_error_m = ball_error.value();
+  return summary;
+}
+
+std::string table_of(const std::vector<report::ContenderSummary>& summaries) {
+  std::string table = fmt::format("  {:<10}{:>7}{:>9}{:>16}{:>12}{:>10}{:>10}  other outcomes\n", "contender", "goals",
+                                  "rate", "95 % interval", "median s", "pose cm", "ball cm");
+  for (const report::ContenderSummary& s : summaries) {
+    const double rate = s.episodes > 0 ? 100.0 * s.goals / s.episodes : kUnknown;
+    const std::string interval = fmt::format("{:.1f}–{:.1f} %", 100.0 * s.rate_low, 100.0 * s.rate_high);
+    std::string others;
+    for (const auto& [outcome, count] : s.outcomes) {
+      if (outcome != "goal") others += fmt::format("{}{} {}", others.empty() ? "" : ", ", outcome, count);
+    }
+    fmt::format_to(std::back_inserter(table), "  {:<10}{:>3}/{:<3}{:>7.1f} %{:>16}{:>12.2f}{:>10.1f}{:>10.1f}  {}\n",
+                   s.contender, s.goals, s.episodes, rate, interval, s.median_time_s, 100.0 * s.pose_error_m,
+                   100.0 * s.ball_error_m, others.empty() ? "none" : others);
+  }
+  return table;
+}
+
+}  // namespace movis::experiments
