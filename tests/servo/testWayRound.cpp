@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "movis/servo/way_round.h"
 
 namespace movis::servo {

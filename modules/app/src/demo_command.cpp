@@ -22,8 +22,8 @@
 namespace movis::app {
 namespace {
 
-constexpr int kShownStarts = 6;          // on the page
-constexpr double kViewInterval = 0.5;    // seconds, between the pictures that it shows
+constexpr int kShownStarts = 6;        // on the page
+constexpr double kViewInterval = 0.5;  // seconds, between the pictures that it shows
 
 struct Job {
   std::string contender;
@@ -89,8 +89,7 @@ void write_rows(const std::vector<report::Episode>& episodes, const DemoArgument
 }
 
 report::EpisodePage make_page(std::vector<report::Episode> episodes, const DemoArguments& arguments,
-                              const sim::Scenario& scenario,
-                              const std::vector<report::ContenderSummary>& summaries) {
+                              const sim::Scenario& scenario, const std::vector<report::ContenderSummary>& summaries) {
   report::EpisodePage page;
   page.title = "MOVIS: approach and shoot";
   page.version = "movis " MOVIS_VERSION;
@@ -114,6 +113,7 @@ report::EpisodePage make_page(std::vector<report::Episode> episodes, const DemoA
 void demo(const DemoArguments& arguments) {
   const sim::Scenario scenario =
       sim::read_scenario(arguments.scenario ? *arguments.scenario : data_file("scenarios/resting-ball.yaml"));
+  { OutputFile can_be_written(arguments.out); }
   const auto begin = std::chrono::steady_clock::now();
   std::vector<report::Episode> episodes = play_all(scenario, arguments);
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

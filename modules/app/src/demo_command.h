@@ -18,8 +18,8 @@ struct DemoArguments {
   std::uint64_t seed = 1;  // of the first episode; the others count on from it
 };
 
-// `movis demo`: plays episodes of approach-and-shoot on rendered images, every controller from the same starts, and writes
-// one self-contained HTML page about them. Throws an Error, and then leaves no file behind.
+// `movis demo`: plays episodes of approach-and-shoot on rendered images, every controller from the same starts, and
+// writes one self-contained HTML page about them. Throws an Error, and then leaves no file behind.
 void demo(const DemoArguments& arguments);
 
 }  // namespace movis::app

@@ -25,10 +25,12 @@ void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
   track->add_option("--data", arguments.data, "The data set: a folder with rig.yaml, frames.csv and images")
       ->required();
   track->add_option("--out", arguments.out, "The estimates, a CSV file")->required();
+  track->add_option("--page", arguments.page, "An HTML page of what was seen and measured");
   track->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
   track->add_option("--field", arguments.field, "Another field than the data set's field.yaml");
   track->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
-  track->add_option("--options", arguments.options, "Options of the stages: YAML with the maps scan, triangulation");
+  track->add_option("--options", arguments.options,
+                    "Options of the stages: YAML with the maps scan, triangulation, world");
   track->add_option("--triangulation", arguments.triangulation, "How bearings become points")
       ->check(CLI::IsMember({"pairs"}))
       ->capture_default_str();

@@ -16,6 +16,7 @@
 #include "movis/localization/localizer.h"
 #include "movis/pipeline/pipeline.h"
 #include "progress.h"
+#include "track_frames.h"
 
 namespace movis::app {
 namespace {
@@ -49,9 +50,16 @@ void refuse_to_overwrite_input(const TrackArguments& arguments, const grab::Data
   }
   std::error_code ignored;
   for (const fs::path& input : inputs) {
-    if (!input.empty() && fs::equivalent(arguments.out, input, ignored)) {
+    if (input.empty()) continue;
+    if (fs::equivalent(arguments.out, input, ignored)) {
       throw Error("--out {}: is the input file {}; name another file", arguments.out.string(), input.string());
     }
+    if (arguments.page && fs::equivalent(*arguments.page, input, ignored)) {
+      throw Error("--page {}: is the input file {}; name another file", arguments.page->string(), input.string());
+    }
+  }
+  if (arguments.page && fs::weakly_canonical(*arguments.page) == fs::weakly_canonical(arguments.out)) {
+    throw Error("--page {}: is the file of --out; name another file", arguments.page->string());
   }
 }
 
@@ -88,6 +96,8 @@ void track(const TrackArguments& arguments) {
   Evaluation evaluation;
   std::map<std::string, int> ball_statuses, pose_statuses;
   std::vector<double> ticks_us;
+  std::optional<TrackFrames> frames;
+  if (arguments.page) frames.emplace(arguments.data.filename().string(), pipeline.rig, sets);
   Progress progress("track", sets);
   source.open();
   for (grab::FrameSet images; source.acquire(images); progress.advance()) {
@@ -97,7 +107,17 @@ void track(const TrackArguments& arguments) {
     ++ball_statuses[word(estimate.ball_in_robot.status)];
     ++pose_statuses[word(estimate.fix.status)];
     ticks_us.push_back(estimate.tick_us);
-    if (const auto found = truth.find(estimate.index); found != truth.end()) evaluation.add(estimate, found->second);
+    const auto found = truth.find(estimate.index);
+    const grab::Truth* true_state = found != truth.end() ? &found->second : nullptr;
+    if (true_state != nullptr) evaluation.add(estimate, *true_state);
+    if (frames) frames->add(pipeline, images, true_state);
+  }
+  if (frames) {
+    const std::string command =
+        fmt::format("movis track --data {} --localizer {}", arguments.data.string(), arguments.localizer);
+    report::write_track_page(
+        {"MOVIS: what the cameras saw and what was measured", frames->take(), "movis " MOVIS_VERSION, command},
+        *arguments.page);
   }
   estimates.commit();
   progress.finish();
@@ -106,6 +126,7 @@ void track(const TrackArguments& arguments) {
              median(ticks_us), count_statuses(ball_statuses), count_statuses(pose_statuses));
   if (!truth.empty()) fmt::print("{}", evaluation.table());
   fmt::print("estimates: {}\n", arguments.out.string());
+  if (arguments.page) fmt::print("open in a browser: {}\n", fs::absolute(*arguments.page).string());
 }
 
 }  // namespace movis::app

@@ -9,13 +9,15 @@ namespace movis::app {
 struct TrackArguments {
   std::filesystem::path data;
   std::filesystem::path out;
+  std::optional<std::filesystem::path> page;
   std::optional<std::filesystem::path> rig, field, colours, options;
   std::string triangulation = "pairs";
   std::string localizer = "composed";
 };
 
 // `movis track`: every set of a data set through the pipeline; the estimates to a CSV file, a short table to standard
-// output. Throws an Error, and then leaves no file behind.
+// output, and, if asked for, an HTML page of what was seen and measured. Throws an Error, and then leaves no file
+// behind.
 void track(const TrackArguments& arguments);
 
 }  // namespace movis::app

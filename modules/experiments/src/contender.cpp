@@ -26,8 +26,8 @@ struct Kind {
   const char* default_file;  // in data/
   std::unique_ptr<control::Controller> (*make)(const fs::path& file, const control::Task& task);
 };
-constexpr std::array<Kind, 2> kKinds = {{{"fuzzy", "fuzzy/approach-and-shoot/controller.yaml", make_fuzzy},
-                                         {"pbvs", "servo/pbvs.yaml", make_pbvs}}};
+constexpr std::array<Kind, 2> kKinds = {
+    {{"fuzzy", "fuzzy/approach-and-shoot/controller.yaml", make_fuzzy}, {"pbvs", "servo/pbvs.yaml", make_pbvs}}};
 
 }  // namespace
 
@@ -42,7 +42,8 @@ std::unique_ptr<control::Controller> make_controller(const std::string& name, co
   std::string known;
   for (const Kind& kind : kKinds) {
     if (name.substr(0, colon) == kind.name) {
-      const fs::path file = colon == std::string::npos ? data_file(kind.default_file) : fs::path(name.substr(colon + 1));
+      const fs::path file =
+          colon == std::string::npos ? data_file(kind.default_file) : fs::path(name.substr(colon + 1));
       return kind.make(file, task);
     }
     known += (known.empty() ? "" : ", ") + std::string(kind.name) + "[:FILE]";

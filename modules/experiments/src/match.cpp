@@ -43,10 +43,7 @@ report::EpisodeView view_of(const grab::FrameSet& images) {
 }  // namespace
 
 Match::Match(const sim::Scenario& scenario, const MatchOptions& options)
-    : options_(options),
-      task_(task_of(scenario)),
-      simulator_(scenario, 0),
-      player_(make_player(scenario, options)) {}
+    : options_(options), task_(task_of(scenario)), simulator_(scenario, 0), player_(make_player(scenario, options)) {}
 
 report::Episode Match::play(const std::string& contender, control::Controller& controller, std::uint64_t seed,
                             double view_interval_s) {

@@ -46,6 +46,14 @@ HWY_INLINE Cells cells_of(const Hall::Grid& grid, const Point& point) {
   return {hn::Add(hn::Add(hn::Mul(v, hn::Set(places, grid.columns)), u), first), inside};
 }
 
+HWY_INLINE FloatVector upper_half(PlaceVector words) {
+  const auto halves = hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<Places>(), words));
+  return hn::ConvertTo(Floats(), hn::BitCast(Places(), halves));
+}
+HWY_INLINE FloatVector lower_half(PlaceVector words) {
+  return hn::ConvertTo(Floats(), hn::And(words, hn::Set(Places(), 0xFFFF)));
+}
+
 // The part of the light that shadows leave.
 HWY_INLINE FloatVector left_by(const std::vector<Shadow>& shadows, const Point& point) {
   FloatVector light = set(1.0F);
@@ -122,9 +130,13 @@ HWY_INLINE void see(const Hall& hall, const std::vector<Shadow>& shadows, const 
       const auto fine = hn::RebindMask(Places(), field.inside);
       const PlaceVector place = hn::IfThenElse(fine, field.place, around.place);
       const FloatVector left = left_by(shadows, point);
+      const PlaceVector red_green = hn::GatherIndex(Places(), hall.red_green(), place);
+      const FloatVector scale = hn::Mul(left, set(Hall::kFullLight / 65535.0F));
+      const FloatVector cells[3] = {hn::Mul(scale, upper_half(red_green)), hn::Mul(scale, lower_half(red_green)),
+                                    hn::Mul(left, hn::GatherIndex(d, hall.blue(), place))};
+      const bool all = hn::AllTrue(d, floor);
       for (int channel = 0; channel < 3; ++channel) {
-        const FloatVector cells = hn::Mul(left, hn::GatherIndex(d, hall.plane(channel), place));
-        colours[channel] = hn::AllTrue(d, floor) ? cells : hn::IfThenElse(floor, cells, colours[channel]);
+        colours[channel] = all ? cells[channel] : hn::IfThenElse(floor, cells[channel], colours[channel]);
       }
     }
     for (int channel = 0; channel < 3; ++channel) hn::StoreU(colours[channel], d, out[channel] + i);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "sensor_tables.h"
+#include "sensor.h"
 
 namespace movis::sim {
 namespace {
@@ -42,13 +42,13 @@ Eye::Eye(const omni::Rig& rig, std::size_t camera, const control::RobotModel& ro
       own(see_own_robot(rig, camera, robot, look)) {
   find_corners(rig.cameras[camera]);
   find_spans();
+  for (int row = 0; row <= height; ++row) {
+    const auto first = std::find_if(own.reflections.begin(), own.reflections.end(),
+                                    [&](const Reflection& reflection) { return reflection.row >= row; });
+    first_reflection.push_back(static_cast<std::size_t>(first - own.reflections.begin()));
+  }
   for (int row = 0; row < tile_rows; ++row) {
     for (int column = 0; column < tile_columns; ++column) tiles.push_back(make_tile(column, row));
-  }
-  for (const Reflection& reflection : own.reflections) {
-    const auto column = static_cast<int>(reflection.pixel % width) / kTile;
-    const auto row = static_cast<int>(reflection.pixel / width) / kTile;
-    tiles[static_cast<std::size_t>(row) * tile_columns + column].reflections.push_back(reflection);
   }
 }
 
@@ -70,13 +70,14 @@ void Eye::find_corners(const omni::Camera& camera) {
 void Eye::find_spans() {
   std::vector<bool> corners_of_last(static_cast<std::size_t>(width) + 1);
   for (int v = 0; v <= height; ++v) {
-    std::vector<bool> is_open(width), is_floor(width), is_mirror(width);
+    std::vector<bool> is_open(width), is_floor(width), is_mirror(width), is_robot(width);
     for (int u = 0; u < width && v < height; ++u) {
       const std::size_t pixel = static_cast<std::size_t>(v) * width + u;
       const float lowest =
           std::min({corner(u, v).z(), corner(u + 1, v).z(), corner(u, v + 1).z(), corner(u + 1, v + 1).z()});
       is_mirror[u] = !own.outside[pixel];
-      is_open[u] = own.cover[pixel] < 255;
+      is_robot[u] = is_mirror[u] && own.open[pixel] < 1.0F;
+      is_open[u] = own.open[pixel] > 0.0F;
       is_floor[u] = is_open[u] && lowest < 0.0F;
     }
     const std::vector<Span> floor_of_row = spans_of(is_floor);
@@ -92,6 +93,7 @@ void Eye::find_spans() {
     if (v == height) break;
     open.push_back(spans_of(is_open));
     floor.push_back(floor_of_row);
+    own_robot.push_back(spans_of(is_robot));
     const std::vector<Span> within = spans_of(is_mirror);
     mirror.push_back(within.empty() ? Span{} : Span{within.front().begin, within.back().end});
   }
@@ -105,9 +107,7 @@ Eye::Tile Eye::make_tile(int column, int row) const {
   Tile tile;
   for (int v = top; v < bottom; ++v) {
     for (int u = left; u < right; ++u) {
-      const std::uint8_t cover = own.cover[static_cast<std::size_t>(v) * width + u];
-      tile.hidden = tile.hidden && cover == 255;
-      tile.touched = tile.touched || (cover > 0 && !own.outside[static_cast<std::size_t>(v) * width + u]);
+      tile.hidden = tile.hidden && own.open[static_cast<std::size_t>(v) * width + u] == 0.0F;
     }
   }
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();

@@ -41,6 +41,13 @@ const Colour& surface(const Arena& arena, const Look& look, double x, double y) 
   return beyond < look.floor_margin ? look.floor : look.surround;
 }
 
+std::int32_t packed(float red, float green) {
+  const auto fraction = [](float light) {
+    return static_cast<std::uint32_t>(std::lround(65535.0F * std::min(light / Hall::kFullLight, 1.0F)));
+  };
+  return static_cast<std::int32_t>(fraction(red) << 16 | fraction(green));
+}
+
 // The part of the light that shadows leave at a point.
 float left_by(const std::vector<Shadow>& shadows, const Eigen::Vector2f& point) {
   float light = 1.0F;
@@ -81,7 +88,7 @@ Hall::Hall(const Arena& arena, const Look& look)
     paint(field_, arena, look, 4);
   }
   around_ = make_grid(look.hall_half_width, look.hall_half_width, kCoarseCell);
-  around_.first = static_cast<int>(planes_[0].size());
+  around_.first = static_cast<int>(blue_.size());
   paint(around_, arena, look, 1);
 }
 
@@ -100,9 +107,9 @@ void Hall::paint(const Grid& grid, const Arena& arena, const Look& look, int sam
       const Eigen::Vector3f centre(grid.left + cell * (static_cast<float>(column) + 0.5F),
                                    grid.bottom + cell * (static_cast<float>(row) + 0.5F), 0.0F);
       const float light = shade(light_, centre, Eigen::Vector3f::UnitZ()) * grain(random);
-      for (int channel = 0; channel < 3; ++channel) {
-        planes_[channel].push_back(sum[channel] * light / static_cast<float>(samples * samples));
-      }
+      const Colour mean = sum * (light / static_cast<float>(samples * samples));
+      red_green_.push_back(packed(mean[0], mean[1]));
+      blue_.push_back(mean[2]);
     }
   }
 }
@@ -114,7 +121,10 @@ Colour Hall::colour(const Ray& ray, const std::vector<Shadow>& shadows) const {
     int cell = cell_of(field_, point.x(), point.y());
     if (cell < 0) cell = cell_of(around_, point.x(), point.y());
     if (cell >= 0) {
-      return Colour(planes_[0][cell], planes_[1][cell], planes_[2][cell], 0.0F) * left_by(shadows, point);
+      const auto word = static_cast<std::uint32_t>(red_green_[cell]);
+      const float red = static_cast<float>(word >> 16) * (kFullLight / 65535.0F);
+      const float green = static_cast<float>(word & 0xFFFF) * (kFullLight / 65535.0F);
+      return Colour(red, green, blue_[cell], 0.0F) * left_by(shadows, point);
     }
   }
   const float to_x = (std::copysign(half_width_, ray.direction.x()) - ray.origin.x()) / ray.direction.x();

@@ -165,7 +165,7 @@ OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::R
   const omni::Camera& camera = rig.cameras[index];
   const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
   OwnRobot own;
-  own.cover.resize(pixels);
+  own.open.resize(pixels);
   own.outside.resize(pixels);
   for (auto& plane : own.planes) plane.resize(pixels);
   Pixel pixel;
@@ -175,7 +175,7 @@ OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::R
     look_at(rig, index, robot, look, corner, kFewSamples, pixel);
     if (pixel.mixed) look_at(rig, index, robot, look, corner, kSamples, pixel);
     own.outside[i] = pixel.beside == pixel.samples;
-    own.cover[i] = static_cast<std::uint8_t>(pixel.covered * 255 / pixel.samples);
+    own.open[i] = 1.0F - static_cast<float>(pixel.covered) / static_cast<float>(pixel.samples);
     for (int channel = 0; channel < 3; ++channel) {
       own.planes[channel][i] = pixel.colour[channel] / static_cast<float>(pixel.samples);
     }
@@ -184,7 +184,8 @@ OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::R
     for (std::size_t k = 0; k < count; ++k) {
       const Ray& ray = pixel.mirrored[k * rays / count];
       const float weight = kReflectance * static_cast<float>(rays) / static_cast<float>(pixel.samples * count);
-      own.reflections.push_back({static_cast<std::uint32_t>(i), weight, ray.origin, ray.direction});
+      own.reflections.push_back(
+          {static_cast<int>(i / camera.width), static_cast<int>(i % camera.width), weight, ray.origin, ray.direction});
     }
   }
   return own;

@@ -13,7 +13,7 @@ namespace movis::sim {
 
 // A part of a pixel that another unit's mirror fills: what it shows comes along this ray.
 struct Reflection {
-  std::uint32_t pixel;        // row · width + column
+  int row, column;            // of the pixel
   float weight;               // of the pixel
   Eigen::Vector3f origin;     // robot frame
   Eigen::Vector3f direction;  // robot's axes, unit
@@ -23,10 +23,10 @@ struct Reflection {
 // picture beside the mirror. It stands still in the picture, so it is found once and laid over everything else. Only
 // what the other mirrors show changes: a ball or a goal is seen a second time in them.
 struct OwnRobot {
-  std::vector<std::uint8_t> cover;           // by pixel: 0 the world is seen, 255 it is not
+  std::vector<float> open;                   // by pixel: the part of it that shows the world
   std::vector<bool> outside;                 // by pixel: beside the mirror
-  std::array<std::vector<float>, 3> planes;  // linear red, green, blue, times cover/255, without the reflections
-  std::vector<Reflection> reflections;
+  std::array<std::vector<float>, 3> planes;  // linear red, green, blue of the other part, without the reflections
+  std::vector<Reflection> reflections;       // row by row
 };
 
 OwnRobot see_own_robot(const omni::Rig& rig, std::size_t camera, const control::RobotModel& robot, const Look& look);

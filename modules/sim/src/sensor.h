@@ -8,6 +8,10 @@
 
 namespace movis::sim {
 
+inline constexpr int kMostLanes = 16;           // floats in a vector
+inline constexpr int kMostRadius = 3;           // of the blur, pixels
+inline constexpr int kChannelStride = 0x10000;  // between the noise counters of two channels of a row
+
 // A Sensor, worked out for rows of one width.
 struct SensorRow {
   std::vector<float> taps;  // of the Gaussian blur, from its middle outwards

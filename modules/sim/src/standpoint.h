@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+
+#include "movis/core/pose.h"
 
 namespace movis::sim {
 
@@ -15,5 +18,15 @@ struct Standpoint {
     return {cosine * d.x() - sine * d.y(), sine * d.x() + cosine * d.y(), d.z()};
   }
 };
+
+inline Standpoint make_standpoint(const Eigen::Vector3f& eye_in_robot, const Pose2& world_from_robot) {
+  Standpoint standpoint{{},
+                        world_from_robot.translation().cast<float>(),
+                        static_cast<float>(std::cos(world_from_robot.beta)),
+                        static_cast<float>(std::sin(world_from_robot.beta))};
+  standpoint.origin = standpoint.to_field(eye_in_robot);
+  standpoint.origin.head<2>() += standpoint.robot;
+  return standpoint;
+}
 
 }  // namespace movis::sim

@@ -7,7 +7,7 @@ namespace movis::sim {
 namespace {
 
 constexpr int kFaces = 8;    // room for the faces of one body
-constexpr int kSamples = 4;  // along each side of a pixel on an edge
+constexpr int kSamples = 3;  // along each side of a pixel on an edge
 
 void put(const LightRowsOut& light, int u, int v, const Colour& colour) {
   for (int channel = 0; channel < 3; ++channel) light.rows[channel][v][u] = colour[channel];
@@ -15,8 +15,9 @@ void put(const LightRowsOut& light, int u, int v, const Colour& colour) {
 
 }  // namespace
 
-TilePainter::TilePainter(const Eye& eye, const Standpoint& standpoint, const Stage& stage)
-    : eye_(eye), standpoint_(standpoint), stage_(stage) {
+TilePainter::TilePainter(const Eye& eye, const Standpoint& standpoint, const Stage& stage, TileScratch& scratch)
+    : eye_(eye), standpoint_(standpoint), stage_(stage), bounds_(scratch.bounds), near_(scratch.near) {
+  bounds_.clear();
   const float beta = std::atan2(standpoint.sine, standpoint.cosine);
   for (const Prop& prop : stage.props) {
     bounds_.push_back(bounds_of(prop, standpoint.origin));
@@ -98,54 +99,16 @@ void TilePainter::paint_props(int left, int top, int columns, int rows, const Li
   }
 }
 
-Colour TilePainter::reflected(const Reflection& reflection) const {
-  Ray ray{standpoint_.to_field(reflection.origin), standpoint_.to_field(reflection.direction)};
-  ray.origin.head<2>() += standpoint_.robot;
-  Seen seen;
-  for (const Prop& prop : stage_.props) {
-    Hit hit{};
-    if (intersect(prop, ray, hit) && (seen.prop == nullptr || hit.distance < seen.hit.distance)) seen = {0, &prop, hit};
-  }
-  return colour(ray, seen);
-}
-
-void TilePainter::paint_robot(const Eye::Tile& tile, int left, int top, int columns, int rows,
-                              const LightRowsOut& light) const {
-  for (int v = 0; v < rows; ++v) {
-    const std::size_t first = static_cast<std::size_t>(top + v) * eye_.width + left;
-    const std::uint8_t* cover = eye_.own.cover.data() + first;
-    for (int channel = 0; channel < 3; ++channel) {
-      const float* own = eye_.own.planes[channel].data() + first;
-      float* out = light.rows[channel][v] + left;
-      if (tile.hidden) {
-        std::copy(own, own + columns, out);
-        continue;
-      }
-      for (int u = 0; u < columns; ++u) {
-        const float open = static_cast<float>(255 - cover[u]) / 255.0F;
-        out[u] = cover[u] == 255 ? own[u] : out[u] * open + own[u];  // a hidden pixel's light may be anything
-      }
-    }
-  }
-  for (const Reflection& reflection : tile.reflections) {
-    const auto u = static_cast<int>(reflection.pixel % eye_.width);
-    const auto v = static_cast<int>(reflection.pixel / eye_.width) - top;
-    const Colour shown = reflection.weight * reflected(reflection);
-    for (int channel = 0; channel < 3; ++channel) light.rows[channel][v][u] += shown[channel];
-  }
-}
-
 void TilePainter::paint(int column, int row, const LightRowsOut& light) {
   const Eye::Tile& tile = eye_.tiles[static_cast<std::size_t>(row) * eye_.tile_columns + column];
+  if (tile.hidden) return;
+  find_near_props(tile);
+  if (near_.empty()) return;
   const int left = column * kTile;
   const int top = row * kTile;
   const int columns = std::min(kTile, eye_.width - left);
   const int rows = std::min(kTile, eye_.height - top);
-  if (!tile.hidden) {
-    find_near_props(tile);
-    if (!near_.empty()) paint_props(left, top, columns, rows, light);
-  }
-  if (tile.touched) paint_robot(tile, left, top, columns, rows, light);
+  paint_props(left, top, columns, rows, light);
 }
 
 }  // namespace movis::sim

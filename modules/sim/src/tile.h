@@ -13,12 +13,18 @@ struct LightRowsOut {
   std::array<std::array<float*, kTile>, 3> rows;  // red, green, blue; by row of the tile: its pixel at u = 0
 };
 
-// Lays what stands on the floor, and then the own robot, over the light of floor and hall, tile by tile. Where all four
-// corners of a pixel see the same face of the same body, the ray through its middle is enough; where they do not, 4 × 4
+// Memory that painters use one after the other.
+struct TileScratch {
+  std::vector<Bounds> bounds;
+  std::vector<const Prop*> near;
+};
+
+// Lays what stands on the floor over the light of floor and hall, tile by tile. Where all four
+// corners of a pixel see the same face of the same body, the ray through its middle is enough; where they do not, 3 × 3
 // rays find how much of it each has.
 class TilePainter {
  public:
-  TilePainter(const Eye& eye, const Standpoint& standpoint, const Stage& stage);
+  TilePainter(const Eye& eye, const Standpoint& standpoint, const Stage& stage, TileScratch& scratch);
 
   void paint(int column, int row, const LightRowsOut& light);
 
@@ -33,18 +39,16 @@ class TilePainter {
   };
   void find_near_props(const Eye::Tile& tile);
   void paint_props(int left, int top, int columns, int rows, const LightRowsOut& light);
-  void paint_robot(const Eye::Tile& tile, int left, int top, int columns, int rows, const LightRowsOut& light) const;
   Seen look(const Ray& ray) const;
   Colour colour(const Ray& ray, const Seen& seen) const;
   Colour pixel(int corner) const;
   Colour sampled(int corner) const;
-  Colour reflected(const Reflection& reflection) const;
 
   const Eye& eye_;
   const Standpoint& standpoint_;
   const Stage& stage_;
-  std::vector<Bounds> bounds_;     // of the props, as seen from here, in the robot's axes
-  std::vector<const Prop*> near_;  // that the tile may show
+  std::vector<Bounds>& bounds_;                            // of the props, as seen from here, in the robot's axes
+  std::vector<const Prop*>& near_;                         // that the tile may show
   std::array<Eigen::Vector3f, kCorners * kCorners> rays_;  // through the pixels' corners, field frame
   std::array<int, kCorners * kCorners> faces_{};
 };

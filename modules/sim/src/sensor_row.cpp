@@ -1,22 +1,10 @@
-#include "sensor_tables.h"
-
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "sensor.h"
-#include "srgb.h"
 
 namespace movis::sim {
 namespace {
-
-std::array<std::int32_t, kToneSteps + 1> make_tone() {
-  std::array<std::int32_t, kToneSteps + 1> tone{};
-  for (int i = 0; i <= kToneSteps; ++i) {
-    tone[i] = static_cast<std::int32_t>(std::lround(255.0 * srgb_of_linear(static_cast<double>(i) / kToneSteps)));
-  }
-  return tone;
-}
 
 // A Gaussian's samples from its middle outwards, without those below a thousandth of it, scaled to a whole sum of 1.
 std::vector<float> gaussian_taps(double sigma) {
@@ -35,11 +23,6 @@ std::vector<float> gaussian_taps(double sigma) {
 }
 
 }  // namespace
-
-const std::int32_t* tone_table() {
-  static const std::array<std::int32_t, kToneSteps + 1> table = make_tone();
-  return table.data();
-}
 
 SensorRow make_sensor_row(const Sensor& sensor, int width) {
   SensorRow row;
