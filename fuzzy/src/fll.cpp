@@ -11,7 +11,7 @@
 #include "fll_rule.h"
 #include "fll_text.h"
 #include "movis/core/error.h"
-#include "names.h"
+#include "movis/core/names.h"
 
 namespace movis::fuzzy {
 namespace {

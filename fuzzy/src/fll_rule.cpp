@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "names.h"
+#include "movis/core/names.h"
 
 namespace movis::fuzzy {
 namespace {

@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "movis/core/error.h"
-#include "names.h"
+#include "movis/core/names.h"
 
 namespace movis::fuzzy {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
+#include "movis/core/names.h"
 #include "movis/fuzzy/fll.h"
-#include "names.h"
 
 namespace movis::fuzzy {
 namespace {

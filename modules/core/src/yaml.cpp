@@ -8,30 +8,10 @@
 #include <string_view>
 
 #include "movis/core/error.h"
+#include "movis/core/names.h"
 
 namespace movis {
 namespace {
-
-// Levenshtein's edit distance, to suggest the key that was meant.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (const char letter : a) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substituted = diagonal + (letter == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
-    }
-  }
-  return row.back();
-}
-
-std::string join(std::initializer_list<const char*> words) {
-  std::string joined;
-  for (const char* word : words) joined += (joined.empty() ? "" : ", ") + std::string(word);
-  return joined;
-}
 
 std::string location(const std::filesystem::path& file, const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();
@@ -92,12 +72,8 @@ void YamlMap::allow(std::initializer_list<const char*> keys) const {
   for (const auto& entry : *node_) {
     const std::string key = entry.first.Scalar();
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    const char* nearest = *std::min_element(keys.begin(), keys.end(), [&](const char* a, const char* b) {
-      return edit_distance(key, a) < edit_distance(key, b);
-    });
-    const std::string hint = edit_distance(key, nearest) <= 3 ? fmt::format("; did you mean '{}'?", nearest) : "";
-    throw Error("{}: unknown key '{}'{}{} Known here: {}", location(file_, entry.first), key,
-                path_.empty() ? "" : " in '" + path_ + "'", hint.empty() ? "." : hint, join(keys));
+    throw Error("{}: unknown key '{}'{}{}", location(file_, entry.first), key,
+                path_.empty() ? "" : " in '" + path_ + "'", suggestion(key, {keys.begin(), keys.end()}));
   }
 }
 
@@ -145,7 +121,7 @@ std::string YamlMap::text(const char* key) const {
 std::string YamlMap::one_of(const char* key, std::initializer_list<const char*> words) const {
   std::string read = text(key);
   if (std::find(words.begin(), words.end(), read) == words.end()) {
-    fail(key, fmt::format("is '{}'; it must be one of: {}", read, join(words)));
+    fail(key, fmt::format("is '{}'; it must be one of: {}", read, joined({words.begin(), words.end()})));
   }
   return read;
 }

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace movis::fuzzy {
+namespace movis {
 
 // For messages about a name that is not among those known: `; did you mean 'near'?` where one is close, and what is
 // known.
@@ -12,4 +12,4 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 
 std::string joined(const std::vector<std::string>& words);  // by commas
 
-}  // namespace movis::fuzzy
+}  // namespace movis

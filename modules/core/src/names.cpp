@@ -1,11 +1,11 @@
-#include "names.h"
+#include "movis/core/names.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
 
-namespace movis::fuzzy {
+namespace movis {
 namespace {
 
 // Levenshtein's edit distance.
@@ -38,4 +38,4 @@ std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-}  // namespace movis::fuzzy
+}  // namespace movis
