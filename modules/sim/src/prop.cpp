@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "light.h"
+#include "panels.h"
 
 namespace movis::sim {
 namespace {
@@ -122,43 +123,14 @@ Bounds bounds_of_cylinder(const Prop& cylinder, const Eigen::Vector3f& eye) {
                         distance + cylinder.radius);
 }
 
-Prop box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Colour& colour) {
+Prop box(const Panel& panel, const Colour& colour) {
   Prop prop;
   prop.shape = Prop::Shape::box;
-  prop.low = low.cwiseMin(high).cast<float>();
-  prop.high = low.cwiseMax(high).cast<float>();
+  prop.low << (panel.centre - panel.half).cast<float>(), 0.0F;
+  prop.high << (panel.centre + panel.half).cast<float>(), static_cast<float>(panel.height);
   prop.centre = 0.5F * (prop.low + prop.high);
   prop.colour = colour;
   return prop;
-}
-
-// Side walls outside ±Fw from the goal line to the goal's depth, and a back panel of 2 cm centred on the depth.
-void add_goal(const Field& field, double side, const Colour& colour, std::vector<Prop>& props) {
-  constexpr double kHalfPanel = 0.01;
-  const double line = side * field.Fd;
-  const double back = side * (field.Fd + field.goal_depth);
-  const double outer = field.Fw + field.goal_thickness;
-  props.push_back(box({-outer, line, 0.0}, {-field.Fw, back, field.goal_height}, colour));
-  props.push_back(box({field.Fw, line, 0.0}, {outer, back, field.goal_height}, colour));
-  props.push_back(box({-field.Fw, back - kHalfPanel, 0.0}, {field.Fw, back + kHalfPanel, field.goal_height}, colour));
-}
-
-// In pieces, so that each is looked for only where it is seen.
-void add_wall(const Field& field, const Wall& wall, const Colour& colour, std::vector<Prop>& props) {
-  constexpr double kThickness = 0.02;
-  constexpr double kPiece = 0.5;
-  const double x = field.half_width + wall.distance;
-  const double y = field.half_length + wall.distance;
-  for (double from = -y; from < y; from += kPiece) {
-    const double to = std::min(from + kPiece, y);
-    props.push_back(box({x, from, 0.0}, {x + kThickness, to, wall.height}, colour));
-    props.push_back(box({-x - kThickness, from, 0.0}, {-x, to, wall.height}, colour));
-  }
-  for (double from = -x; from < x; from += kPiece) {
-    const double to = std::min(from + kPiece, x);
-    props.push_back(box({from, y, 0.0}, {to, y + kThickness, wall.height}, colour));
-    props.push_back(box({from, -y - kThickness, 0.0}, {to, -y, wall.height}, colour));
-  }
 }
 
 Prop obstacle_prop(const Obstacle& obstacle, const Look& look) {
@@ -214,10 +186,11 @@ std::vector<Prop> props_of(const Arena& arena, const Look& look) {
   std::vector<Prop> props;
   if (arena.field) {
     const bool white = arena.field->goals == Field::Goals::white;
-    add_goal(*arena.field, 1.0, white ? look.white_goal : look.yellow_goal, props);
-    add_goal(*arena.field, -1.0, white ? look.white_goal : look.blue_goal, props);
-    if (arena.wall) add_wall(*arena.field, *arena.wall, look.wall, props);
+    for (const Panel& panel : goal_panels(*arena.field)) {
+      props.push_back(box(panel, white ? look.white_goal : panel.centre.y() > 0.0 ? look.yellow_goal : look.blue_goal));
+    }
   }
+  for (const Panel& panel : wall_panels(arena)) props.push_back(box(panel, look.wall));
   for (const Obstacle& obstacle : arena.obstacles) props.push_back(obstacle_prop(obstacle, look));
   return props;
 }
