@@ -1,4 +1,4 @@
-// A controller of your own, in closed loop against those that are there.
+// A controller of your own, in closed loop against fuzzy control and visual servoing.
 //
 // Scenario: the robot and a resting ball on the paper's field, their places drawn from a seed. Every contender plays
 // the same starts, sees the same way (three rendered cameras, scan, triangulation, localization) and drives the same
@@ -27,7 +27,7 @@ using Eigen::Vector2d;
 // Your controller: start() and step() are all it takes; the signals become curves on the page.
 class Orbit : public control::Controller {
  public:
-  explicit Orbit(const control::Task& task) : task_(task) {}
+  explicit Orbit(control::Task task) : task_(std::move(task)) {}
 
   void start() override {}  // nothing to forget: the command is a function of the observation
 
@@ -35,15 +35,16 @@ class Orbit : public control::Controller {
     const control::Percepts percepts = control::perceive(observation, task_);
     const double contact = task_.robot.radius + task_.ball_radius;
     const double away = std::min(1.0, std::abs(percepts.detour) / radians(30.0));  // 0 behind the ball
-    const double wanted = contact - kLean + kGap * away;
+    const double rho = contact - kLean + kGap * away;
 
     const Vector2d n = -percepts.ball_in_robot / percepts.ball_distance;
     const Vector2d t(-n.y(), n.x());
     const double around = contact * std::clamp(percepts.detour, -1.0, 1.0);
-    const Vector2d v = kGain * ((wanted - percepts.ball_distance) * n + around * t);
+    const Vector2d v = kGain * ((rho - percepts.ball_distance) * n + around * t);
     const double shot_direction = wrap_angle(percepts.ball_direction + percepts.detour);
 
-    signals_ = {{"behind", "", 1.0 - away}, {"detour", "°", degrees(percepts.detour)}};
+    signals_[0].value = 1.0 - away;
+    signals_[1].value = degrees(percepts.detour);
     return {{v.x(), v.y(), kTurnGain * shot_direction}, control::should_kick(observation, task_)};
   }
 
@@ -72,6 +73,7 @@ void write_page(const sim::Scenario& scenario, std::vector<report::ContenderSumm
                 std::vector<report::Episode> episodes, const std::string& file) {
   report::EpisodePage page;
   page.title = "A controller of your own";
+  page.version = "MOVIS";
   page.command = "tutorial-approach-and-shoot";
   page.field = *scenario.arena.field;
   page.robot_radius = scenario.robot.radius;
@@ -103,11 +105,11 @@ bool compete(const Arguments& arguments) {
       const auto controller = make(contender, match.task());
       episodes.push_back(match.play(contender, *controller, seed, view_interval_s));
       const report::Episode& episode = episodes.back();
-      fmt::print("start {}  {:10}{:12}{:6.2f} s, {} kicks\n", seed, contender, episode.outcome, episode.duration_s,
-                 episode.kicks);
+      fmt::print("start {}  {:9} {:11} {:6.2f} s\n", seed, contender, episode.outcome, episode.duration_s);
     }
   }
   std::vector<report::ContenderSummary> summaries;
+  summaries.reserve(contenders.size());
   for (const std::string& contender : contenders) {
     summaries.push_back(experiments::summarize(contender, episodes));
   }
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
   program.add_option("--starts", arguments.starts, "How many")->check(CLI::Range(1, 1000))->capture_default_str();
   program.add_option("--seed", arguments.seed, "Of the first start; the others count on")->capture_default_str();
   program.add_option("--scenario", arguments.scenario, "Default: data/scenarios/resting-ball.yaml");
-  program.add_option("--localizer", arguments.localizer, "How goals become a pose")->capture_default_str();
+  program.add_option("--localizer", arguments.localizer, "composed, method1 or method2")->capture_default_str();
   program.add_option("--page", arguments.page, "An HTML page that replays the episodes");
   return tutorial::run(program, argc, argv, [&] { return compete(arguments); });
 }

@@ -94,12 +94,12 @@ void show(const Picture& picture, const vpImagePoint& top_left, int size, const 
 
 // Above what the cameras see; beneath M1's ball, large, with a cross where the nominal camera has its centre.
 Picture draw(const std::vector<std::vector<Picture>>& pictures, const omni::Camera& m1, const Eigen::Vector3d& ball) {
-  constexpr int kPixels = 40;  // across the lower panels
+  constexpr int kZoom = 6, kPixels = kPanel / kZoom;  // of the lower panels
   Picture drawing(2 * kPanel, 3 * kPanel);
   const char* const names[] = {"M1", "M2", "M3", "M1's ball", "no blur or noise", "M1 tilted"};
   const Eigen::Vector2d pixel = omni::project(m1, ball).value();
-  const vpImagePoint corner(std::floor(pixel.y()) - kPixels / 2, std::floor(pixel.x()) - kPixels / 2);
-  const vpImagePoint cross = (vpImagePoint(pixel.y() + 0.5, pixel.x() + 0.5) - corner) * (kPanel / kPixels);
+  const vpImagePoint corner(std::floor(pixel.y()) - 0.5 * kPixels, std::floor(pixel.x()) - 0.5 * kPixels);
+  const vpImagePoint cross = (vpImagePoint(pixel.y() + 0.5, pixel.x() + 0.5) - corner) * kZoom;
   for (int column = 0; column < 3; ++column) {
     const vpImagePoint above(0, kPanel * column), beneath(kPanel, kPanel * column);
     show(pictures[0][column], {0, 80}, 2 * kPanel, names[column], above, drawing);

@@ -122,34 +122,53 @@ void expect_agreement(const ObjectDifferences& object, std::size_t fewest) {
   EXPECT_LT(object.azimuth.within(1.0), 0.1);
 }
 
+// Elevations feel how the highlights of a ball differ: they lean its colour's centre up or down.
+void expect_elevations(const ObjectDifferences& ball) {
+  EXPECT_LT(std::abs(ball.elevation.mean()), 0.05);
+  EXPECT_LE(ball.elevation.sigma(), 0.04);
+}
+
+// Of a ball or goal that is partly hidden, the detector decides for single pixels what belongs to it. Where the rest of
+// the outline does not outvote them, the two pictures fall on different sides of that decision: most differences are as
+// small as those of clean bearings, a few are large. In `near` these are balls whose mirror image in the next sensor
+// unit touches them; its outline is then taken for the ball's, or not.
+void expect_mostly_agreement(const ObjectDifferences& flagged) {
+  if (flagged.azimuth.values.empty()) return;
+  EXPECT_LT(flagged.azimuth.within(0.5), 0.04);
+  EXPECT_LT(flagged.azimuth.within(0.75), 0.1);
+}
+
+void expect_agreement(const Comparison& comparison, std::size_t fewest_balls, std::size_t fewest_goals) {
+  EXPECT_EQ(comparison.missing, 0);
+  expect_agreement(comparison.ball, fewest_balls);
+  expect_elevations(comparison.ball);
+  if (fewest_goals > 0) expect_agreement(comparison.goals, fewest_goals);
+  expect_mostly_agreement(comparison.flagged_ball);
+  expect_mostly_agreement(comparison.flagged_goals);
+}
+
 TEST(RendererAgainstRayTracer, Open) {
   const auto folder = test::shared_data() / "pov" / "open";
   MOVIS_NEEDS_SHARED_DATA(folder);
-  const Comparison comparison = compare_set(folder);
-  expect_agreement(comparison.ball, 100);
+  expect_agreement(compare_set(folder), 100, 0);
 }
 
 TEST(RendererAgainstRayTracer, Near) {
   const auto folder = test::shared_data() / "pov" / "near";
   MOVIS_NEEDS_SHARED_DATA(folder);
-  const Comparison comparison = compare_set(folder);
-  expect_agreement(comparison.ball, 20);
+  expect_agreement(compare_set(folder), 20, 0);
 }
 
 TEST(RendererAgainstRayTracer, Field) {
   const auto folder = test::shared_data() / "pov" / "field";
   MOVIS_NEEDS_SHARED_DATA(folder);
-  const Comparison comparison = compare_set(folder);
-  expect_agreement(comparison.ball, 70);
-  expect_agreement(comparison.goals, 130);
+  expect_agreement(compare_set(folder), 70, 130);
 }
 
 TEST(RendererAgainstRayTracer, FieldWithObstacles) {
   const auto folder = test::shared_data() / "pov" / "field-obstacles";
   MOVIS_NEEDS_SHARED_DATA(folder);
-  const Comparison comparison = compare_set(folder);
-  expect_agreement(comparison.ball, 20);
-  expect_agreement(comparison.goals, 30);
+  expect_agreement(compare_set(folder), 20, 30);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST(RendererArena, TheNearerHidesTheFarther) {
   EXPECT_TRUE(shows(light_of(scene, scene.images(), on_goal), scene.look.yellow_goal));
   scene.state.ball_in_field = {0.0, 1.3, 0.18};
   EXPECT_TRUE(shows(light_of(scene, scene.images(), on_goal), scene.look.ball));
-  scene.arena.obstacles = {{{0.0, 0.8}, 0.1, 0.4}};
+  scene.arena.obstacles = {{{0.0, 0.8}, 0.2, 0.4}};
   EXPECT_TRUE(shows(light_of(scene, scene.images(), on_goal), scene.look.hull));
 }
 
@@ -86,7 +86,15 @@ struct LinePoint {
 
 TEST(RendererArena, LinesOfALargeField) {
   RenderScene scene;
-  Field field{6.0, 9.0, 2.0, 0.125, 9.0, 1.2, 1.0, 0.5, 0.05};
+  Field field;
+  field.half_width = 6.0;
+  field.half_length = field.Fd = 9.0;
+  field.circle = 2.0;
+  field.line = 0.125;
+  field.Fw = 1.2;
+  field.goal_height = 1.0;
+  field.goal_depth = 0.5;
+  field.goal_thickness = 0.05;
   field.goals = Field::Goals::white;
   field.penalty_area = {2.25, 6.9};
   field.goal_area = {0.75, 3.9};
@@ -107,6 +115,8 @@ TEST(RendererArena, LinesOfALargeField) {
       {"goal area, side", {1.95 - half, 8.6}, {1.0, 0.0}},
       {"corner arc", corner, {-r, -r}},
   };
+  sim::Renderer renderer(scene.rig, scene.arena, scene.robot, scene.look);
+  grab::FrameSet images;
   for (const double end : {1.0, -1.0}) {
     for (const LinePoint& line : points) {
       const Vector2d point(line.point.x(), end * line.point.y());
@@ -114,7 +124,7 @@ TEST(RendererArena, LinesOfALargeField) {
       const Vector2d robot = point - 0.8 * point.normalized();
       scene.state.world_from_robot = {robot.x(), robot.y(), 0.7};
       scene.state.ball_in_field = {-3.0, -1.0, sim::kBallRadius};
-      const grab::FrameSet images = scene.images();
+      renderer.render(scene.state, 1, images);
       EXPECT_TRUE(shows(light_of(scene, images, on_floor(point)), scene.look.line)) << line.name << " " << end;
       EXPECT_TRUE(shows(light_of(scene, images, on_floor(grass)), scene.look.floor)) << line.name << " " << end;
     }
