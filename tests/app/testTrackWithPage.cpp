@@ -9,7 +9,7 @@ namespace {
 
 const std::string kTrack = std::string(MOVIS_PROGRAM) + " track --data " MOVIS_SOURCE_DIR "/data/images/field --out ";
 
-TEST(TrackPage, OpensInABrowserWithoutErrors) {
+TEST(TrackWithPage, OpensInABrowserWithoutErrors) {
   const test::TemporaryFolder folder;
   const auto page = folder.path() / "track.html";
   const test::ProgramRun run =
@@ -24,7 +24,7 @@ TEST(TrackPage, OpensInABrowserWithoutErrors) {
   EXPECT_GE(drawings, 9U);
 }
 
-TEST(TrackPage, PlaceThatCannotBeWritten) {
+TEST(TrackWithPage, PlaceThatCannotBeWritten) {
   const test::TemporaryFolder folder;
   const auto estimates = folder.path() / "est.csv";
   const test::ProgramRun run =
@@ -34,7 +34,7 @@ TEST(TrackPage, PlaceThatCannotBeWritten) {
   EXPECT_FALSE(std::filesystem::exists(estimates));
 }
 
-TEST(TrackPage, SameFileAsTheEstimates) {
+TEST(TrackWithPage, SameFileAsTheEstimates) {
   const test::TemporaryFolder folder;
   const std::string file = (folder.path() / "est.csv").string();
   const test::ProgramRun run = test::run_program(kTrack + file + " --page " + file);
