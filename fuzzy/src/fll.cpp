@@ -123,7 +123,7 @@ Variable read_variable(const FllBlock& block, const RuleBase& rules) {
 
 InputVariable read_input(const FllBlock& block, const RuleBase& rules) {
   block.allow({"description", "enabled", "range", "lock-range"}, {"term"});
-  InputVariable input = read_variable<InputVariable>(block, rules);
+  auto input = read_variable<InputVariable>(block, rules);
   for_each_term(block, [&](const FllLine& line, const std::string& name, const std::string& kind) {
     input.terms.push_back({name, read_function(block, line, kind)});
   });
@@ -134,7 +134,7 @@ OutputVariable read_output(const FllBlock& block, const RuleBase& rules) {
   block.allow(
       {"description", "enabled", "range", "lock-range", "aggregation", "defuzzifier", "default", "lock-previous"},
       {"term"});
-  OutputVariable output = read_variable<OutputVariable>(block, rules);
+  auto output = read_variable<OutputVariable>(block, rules);
   block.one_of("aggregation", {"none"}, 0);
   block.require("defuzzifier");
   block.one_of("defuzzifier", {"WeightedAverage", "WeightedAverage TakagiSugeno", "WeightedAverage Automatic"}, 0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "layer.h"
 #include "movis/core/angle.h"
@@ -61,7 +62,7 @@ struct Hierarchy::Layers {
   std::vector<std::size_t> weights;  // the behaviours' places among the selection's outputs
 };
 
-Hierarchy::Hierarchy(const std::filesystem::path& file, const control::Task& task) : task_(task) {
+Hierarchy::Hierarchy(const std::filesystem::path& file, control::Task task) : task_(std::move(task)) {
   const YamlMap map = YamlMap::read(file);
   map.allow({"selection", "behaviours"});
   const std::filesystem::path folder = file.parent_path();

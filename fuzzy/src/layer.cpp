@@ -31,6 +31,7 @@ constexpr std::array kPercepts{
 template <typename List>
 std::vector<std::string> names_of(const List& list) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const auto& item : list) names.emplace_back(item.name);
   return names;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "movis/servo/planar_task.h"
 #include "movis/servo/way_round.h"
@@ -66,8 +67,8 @@ struct PositionBased::Servo {
   PlanarTask task;  // last: it refers to the features
 };
 
-PositionBased::PositionBased(const control::Task& task, const PbvsOptions& options)
-    : task_(task),
+PositionBased::PositionBased(control::Task task, const PbvsOptions& options)
+    : task_(std::move(task)),
       options_(options),
       servo_(std::make_unique<Servo>(options)),
       signals_{{"e_x", "m", 0.0}, {"e_y", "m", 0.0}, {"e_theta", "°", 0.0}, {"detour", "°", 0.0}} {}

@@ -143,13 +143,13 @@ HWY_INLINE void see(const Hall& hall, const std::vector<Shadow>& shadows, const 
   }
 }
 
-void SeeHall(const Hall& hall, const std::vector<Shadow>& shadows, const Standpoint& standpoint, const RayPlanes& rays,
-             int count, const LightPlanes& light) {
+void see_along_rays(const Hall& hall, const std::vector<Shadow>& shadows, const Standpoint& standpoint,
+                    const RayPlanes& rays, int count, const LightPlanes& light) {
   see<false>(hall, shadows, standpoint, rays, 0, count, light);
 }
 
-void SeeHallBetween(const Hall& hall, const std::vector<Shadow>& shadows, const Standpoint& standpoint,
-                    const RayPlanes& corners, int stride, int count, const LightPlanes& light) {
+void see_between_corners(const Hall& hall, const std::vector<Shadow>& shadows, const Standpoint& standpoint,
+                         const RayPlanes& corners, int stride, int count, const LightPlanes& light) {
   see<true>(hall, shadows, standpoint, corners, stride, count, light);
 }
 
@@ -159,17 +159,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace movis::sim {
 
-HWY_EXPORT(SeeHall);
-HWY_EXPORT(SeeHallBetween);
+HWY_EXPORT(see_along_rays);
+HWY_EXPORT(see_between_corners);
 
 void see_hall(const Hall& hall, const std::vector<Shadow>& shadows, const Standpoint& standpoint, const RayPlanes& rays,
               int count, const LightPlanes& light) {
-  HWY_DYNAMIC_DISPATCH(SeeHall)(hall, shadows, standpoint, rays, count, light);
+  HWY_DYNAMIC_DISPATCH(see_along_rays)(hall, shadows, standpoint, rays, count, light);
 }
 
 void see_hall_between(const Hall& hall, const std::vector<Shadow>& shadows, const Standpoint& standpoint,
                       const RayPlanes& corners, int stride, int count, const LightPlanes& light) {
-  HWY_DYNAMIC_DISPATCH(SeeHallBetween)(hall, shadows, standpoint, corners, stride, count, light);
+  HWY_DYNAMIC_DISPATCH(see_between_corners)(hall, shadows, standpoint, corners, stride, count, light);
 }
 
 }  // namespace movis::sim

@@ -99,10 +99,10 @@ void Hall::paint(const Grid& grid, const Arena& arena, const Look& look, int sam
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       Colour sum = Colour::Zero();
-      for (int sample = 0; sample < samples * samples; ++sample) {
-        const double x = grid.left + cell * (column + (sample % samples + 0.5) / samples);
-        const double y = grid.bottom + cell * (row + (sample / samples + 0.5) / samples);
-        sum += surface(arena, look, x, y);
+      for (int v = 0; v < samples; ++v) {
+        const double y = grid.bottom + cell * (row + (v + 0.5) / samples);
+        for (int u = 0; u < samples; ++u)
+          sum += surface(arena, look, grid.left + cell * (column + (u + 0.5) / samples), y);
       }
       const Eigen::Vector3f centre(grid.left + cell * (static_cast<float>(column) + 0.5F),
                                    grid.bottom + cell * (static_cast<float>(row) + 0.5F), 0.0F);

@@ -148,7 +148,8 @@ void look_at(const omni::Rig& rig, std::size_t index, const control::RobotModel&
   pixel.samples = side * side;
   pixel.colour.setZero();
   for (int sample = 0; sample < pixel.samples; ++sample) {
-    const Eigen::Vector2d inside((sample % side + 0.5) / side, (sample / side + 0.5) / side);
+    const int row = sample / side;
+    const Eigen::Vector2d inside((sample % side + 0.5) / side, (row + 0.5) / side);
     const Seen seen = see_robot(rig, index, robot, look, corner + inside);
     if (seen.distance == kNothing) continue;
     ++pixel.covered;
@@ -170,8 +171,9 @@ OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::R
   for (auto& plane : own.planes) plane.resize(pixels);
   Pixel pixel;
   for (std::size_t i = 0; i < pixels; ++i) {
-    const Eigen::Vector2d corner(static_cast<double>(i % camera.width) - 0.5,
-                                 static_cast<double>(i / camera.width) - 0.5);
+    const auto column = static_cast<int>(i % camera.width);
+    const auto row = static_cast<int>(i / camera.width);
+    const Eigen::Vector2d corner(column - 0.5, row - 0.5);
     look_at(rig, index, robot, look, corner, kFewSamples, pixel);
     if (pixel.mixed) look_at(rig, index, robot, look, corner, kSamples, pixel);
     own.outside[i] = pixel.beside == pixel.samples;
@@ -184,8 +186,7 @@ OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::R
     for (std::size_t k = 0; k < count; ++k) {
       const Ray& ray = pixel.mirrored[k * rays / count];
       const float weight = kReflectance * static_cast<float>(rays) / static_cast<float>(pixel.samples * count);
-      own.reflections.push_back(
-          {static_cast<int>(i / camera.width), static_cast<int>(i % camera.width), weight, ray.origin, ray.direction});
+      own.reflections.push_back({row, column, weight, ray.origin, ray.direction});
     }
   }
   return own;

@@ -29,6 +29,7 @@ struct OwnRobot {
   std::vector<Reflection> reflections;       // row by row
 };
 
-OwnRobot see_own_robot(const omni::Rig& rig, std::size_t camera, const control::RobotModel& robot, const Look& look);
+// As the camera of that index in the rig sees it.
+OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::RobotModel& robot, const Look& look);
 
 }  // namespace movis::sim

@@ -52,7 +52,7 @@ void Renderer::Cameras::prepare_workspaces() {
 void Renderer::Cameras::make_strips(int worker, int workers, const State& state, std::uint64_t seed,
                                     grab::FrameSet& images) {
   constexpr std::uint64_t kCameraStep = 1U << 20;  // more than a picture's rows
-  for (std::size_t i = static_cast<std::size_t>(worker); i < strips.size(); i += static_cast<std::size_t>(workers)) {
+  for (auto i = static_cast<std::size_t>(worker); i < strips.size(); i += static_cast<std::size_t>(workers)) {
     const Strip& strip = strips[i];
     const CameraParts& camera = cameras[strip.camera];
     make_strip(camera, stage, state.world_from_robot, strip.first_row,

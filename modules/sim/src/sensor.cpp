@@ -125,13 +125,13 @@ HWY_INLINE void expose_pixels(const LightRows& rows, const SensorRow& sensor, in
     } else {
       std::uint8_t last[3 * kMostLanes];
       hn::StoreInterleaved3(values[2], values[1], values[0], bytes, last);
-      std::memcpy(bgr + 3 * u, last, static_cast<std::size_t>(3 * (end - u)));
+      std::memcpy(bgr + 3 * u, last, std::size_t{3} * static_cast<std::size_t>(end - u));
     }
   }
 }
 
-void Expose(const LightRows& rows, const SensorRow& sensor, int begin, int end, std::uint32_t key, float* scratch,
-            std::uint8_t* bgr) {
+void expose_pixels_of_row(const LightRows& rows, const SensorRow& sensor, int begin, int end, std::uint32_t key,
+                          float* scratch, std::uint8_t* bgr) {
   static_assert(kMostRadius == 3);
   switch (sensor.radius()) {
     case 0:
@@ -151,11 +151,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace movis::sim {
 
-HWY_EXPORT(Expose);
+HWY_EXPORT(expose_pixels_of_row);
 
 void expose(const LightRows& rows, const SensorRow& sensor, int begin, int end, std::uint32_t noise_key, float* scratch,
             std::uint8_t* bgr) {
-  HWY_DYNAMIC_DISPATCH(Expose)(rows, sensor, begin, end, noise_key, scratch, bgr);
+  HWY_DYNAMIC_DISPATCH(expose_pixels_of_row)(rows, sensor, begin, end, noise_key, scratch, bgr);
 }
 
 }  // namespace movis::sim

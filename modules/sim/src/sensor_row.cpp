@@ -18,6 +18,7 @@ std::vector<float> gaussian_taps(double sigma) {
     sum += 2.0 * tap;
   }
   std::vector<float> scaled;
+  scaled.reserve(taps.size());
   for (const double tap : taps) scaled.push_back(static_cast<float>(tap / sum));
   return scaled;
 }

@@ -43,7 +43,7 @@ class Hierarchy : public control::Controller {
  public:
   // Reads strictly: beyond what fll.h refuses, an unknown input or output, an output that is missing, a behaviour
   // without a weight and a weight without a behaviour are Errors that name the file and list what is known.
-  Hierarchy(const std::filesystem::path& file, const control::Task& task);
+  Hierarchy(const std::filesystem::path& file, control::Task task);
   ~Hierarchy() override;
   Hierarchy(Hierarchy&&) noexcept;
   Hierarchy& operator=(Hierarchy&&) noexcept;

@@ -61,7 +61,7 @@ class Inference {
   std::size_t compile(const Rule& rule, const RuleBlock& block);  // the degree of its antecedent
   std::size_t compile(const Proposition& proposition);
   static double joined(Join::Norm norm, double a, double b);
-  double concluded(std::size_t output);
+  double concluded(std::size_t i);  // of the output i
 
   RuleBase rules_;
   std::vector<Proposition> propositions_;  // whose degrees are degrees_[proposition_degrees_[i]]

@@ -39,7 +39,7 @@ PbvsOptions read_pbvs_options(const std::filesystem::path& file);
 // A world that is not finite gives a command that is not finite, which control::Drive turns into a stop.
 class PositionBased : public control::Controller {
  public:
-  PositionBased(const control::Task& task, const PbvsOptions& options);
+  PositionBased(control::Task task, const PbvsOptions& options);
   ~PositionBased() override;
 
   void start() override;
