@@ -19,6 +19,7 @@
 #include "common.h"
 #include "movis/experiments/contender.h"
 #include "movis/experiments/match.h"
+#include "movis/experiments/page.h"
 #include "movis/experiments/statistics.h"
 
 using namespace movis;
@@ -71,19 +72,9 @@ std::unique_ptr<control::Controller> make(const std::string& name, const control
 
 void write_page(const sim::Scenario& scenario, std::vector<report::ContenderSummary> summaries,
                 std::vector<report::Episode> episodes, const std::string& file) {
-  report::EpisodePage page;
+  report::EpisodePage page = experiments::page_of(scenario, std::move(summaries), std::move(episodes));
   page.title = "A controller of your own";
-  page.version = "MOVIS";
   page.command = "tutorial-approach-and-shoot";
-  page.field = *scenario.arena.field;
-  page.robot_radius = scenario.robot.radius;
-  page.ball_radius = sim::kBallRadius;
-  for (const sim::Obstacle& obstacle : scenario.arena.obstacles) {
-    page.obstacles.push_back({obstacle.position, obstacle.radius});
-  }
-  for (const omni::Camera& camera : scenario.rig.cameras) page.camera_names.push_back(camera.name);
-  page.summaries = std::move(summaries);
-  page.episodes = std::move(episodes);
   report::write_episode_page(page, file);
   fmt::print("open in a browser: {}\n", file);
 }

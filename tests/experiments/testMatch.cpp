@@ -101,7 +101,7 @@ TEST(Match, ScenarioWithoutAField) {
 TEST(Match, UnknownLocalizer) {
   MatchOptions options;
   options.localizer = "gps";
-  test::expect_error([&] { Match(short_scenario(1.0), options); }, {"localizer"});
+  test::expect_error([&] { Match(short_scenario(1.0), options); }, {"'gps'", "composed"});
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(RendererCameras, TiltedRig) {
   for (int i = 0; i < 12; ++i) {
     const double azimuth = radians(30.0 * i + 7.0);
     const double distance = 1.0 + 0.15 * i;
-    balls.push_back({distance * std::cos(azimuth), distance * std::sin(azimuth), sim::kBallRadius});
+    balls.emplace_back(distance * std::cos(azimuth), distance * std::sin(azimuth), sim::kBallRadius);
   }
   expect_true_directions(scene, balls, 30);
 }
@@ -94,7 +94,7 @@ TEST(RendererCameras, BallInTheAir) {
   std::vector<Vector3d> balls;
   for (int i = 0; i < 8; ++i) {
     const double azimuth = radians(45.0 * i + 7.0);
-    balls.push_back({1.6 * std::cos(azimuth), 1.6 * std::sin(azimuth), 0.15 + 0.03 * i});
+    balls.emplace_back(1.6 * std::cos(azimuth), 1.6 * std::sin(azimuth), 0.15 + 0.03 * i);
   }
   expect_true_directions(scene, balls, 20);
 }

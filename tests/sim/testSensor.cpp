@@ -158,7 +158,7 @@ TEST(Sensor, SrgbCurve) {
   for (const Eigen::Array3f& wall : {Eigen::Array3f(0.0F, 0.002F, 0.0031F), Eigen::Array3f(0.0033F, 0.01F, 0.03F),
                                      Eigen::Array3f(0.5F, 0.98F, 1.0F)}) {
     const cv::Mat image = walled_scene(wall).images().memory[0];
-    const auto bgr = image.at<cv::Vec3b>(240, 110);
+    const auto& bgr = image.at<cv::Vec3b>(240, 110);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(bgr[2 - i], srgb_byte(wall[i]), 0.55) << wall[i];
   }
 }

@@ -12,10 +12,13 @@
 
 #include "interrupt.h"
 #include "movis/core/error.h"
+#include "movis/core/names.h"
 #include "movis/core/output_file.h"
 #include "movis/core/paths.h"
+#include "movis/core/version.h"
 #include "movis/experiments/contender.h"
 #include "movis/experiments/match.h"
+#include "movis/experiments/page.h"
 #include "movis/experiments/statistics.h"
 #include "progress.h"
 
@@ -83,28 +86,20 @@ void write_rows(const std::vector<report::Episode>& episodes, const DemoArgument
   file.stream() << "scenario,contender,localizer,seed,version,outcome,duration_s,kicks\n";
   for (const report::Episode& e : episodes) {
     file.stream() << fmt::format("{},{},{},{},{},{},{:.4f},{}\n", scenario.name, e.contender, arguments.localizer,
-                                 e.seed, MOVIS_VERSION, e.outcome, e.duration_s, e.kicks);
+                                 e.seed, version(), e.outcome, e.duration_s, e.kicks);
   }
   file.commit();
 }
 
 report::EpisodePage make_page(std::vector<report::Episode> episodes, const DemoArguments& arguments,
                               const sim::Scenario& scenario, const std::vector<report::ContenderSummary>& summaries) {
-  report::EpisodePage page;
-  page.title = "MOVIS: approach and shoot";
-  page.version = "movis " MOVIS_VERSION;
-  page.command = fmt::format("movis demo --episodes {} --seed {}", arguments.episodes, arguments.seed);
-  page.field = *scenario.arena.field;
-  page.robot_radius = scenario.robot.radius;
-  page.ball_radius = sim::kBallRadius;
-  for (const sim::Obstacle& obstacle : scenario.arena.obstacles) {
-    page.obstacles.push_back({obstacle.position, obstacle.radius});
-  }
-  for (const omni::Camera& camera : scenario.rig.cameras) page.camera_names.push_back(camera.name);
-  page.summaries = summaries;
   const auto not_shown = [](const report::Episode& episode) { return episode.views.empty(); };
   episodes.erase(std::remove_if(episodes.begin(), episodes.end(), not_shown), episodes.end());
-  page.episodes = std::move(episodes);
+  report::EpisodePage page = experiments::page_of(scenario, summaries, std::move(episodes));
+  page.title = "MOVIS: approach and shoot";
+  page.command = fmt::format("movis demo --episodes {} --seed {} --controllers {} --localizer {}", arguments.episodes,
+                             arguments.seed, joined(arguments.controllers), arguments.localizer);
+  if (arguments.scenario) page.command += " --scenario " + arguments.scenario->string();
   return page;
 }
 

@@ -5,6 +5,7 @@
 
 #include "demo_command.h"
 #include "interrupt.h"
+#include "movis/core/version.h"
 #include "movis/localization/localizer.h"
 #include "track_command.h"
 
@@ -63,7 +64,7 @@ void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
 int main(int argc, char** argv) {
   movis::app::catch_interrupts();
   CLI::App program("MOVIS: omnidirectional vision of mobile robots. File formats and statuses: docs/files.md");
-  program.set_version_flag("--version", "movis " MOVIS_VERSION);
+  program.set_version_flag("--version", std::string("movis ") + movis::version());
   program.require_subcommand(1);
   movis::app::DemoArguments demo_arguments;
   add_demo(program, demo_arguments);

@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "movis/core/error.h"
 #include "movis/core/paths.h"
+#include "movis/core/version.h"
 #include "movis/grab/dataset_source.h"
 #include "movis/grab/truth.h"
 #include "movis/localization/localizer.h"
@@ -115,9 +116,9 @@ void track(const TrackArguments& arguments) {
   if (frames) {
     const std::string command =
         fmt::format("movis track --data {} --localizer {}", arguments.data.string(), arguments.localizer);
-    report::write_track_page(
-        {"MOVIS: what the cameras saw and what was measured", frames->take(), "movis " MOVIS_VERSION, command},
-        *arguments.page);
+    report::write_track_page({"MOVIS: what the cameras saw and what was measured", frames->take(),
+                              std::string("movis ") + version(), command},
+                             *arguments.page);
   }
   estimates.commit();
   progress.finish();

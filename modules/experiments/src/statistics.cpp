@@ -72,18 +72,24 @@ report::ContenderSummary summarize(const std::string& contender, const std::vect
 }
 
 std::string table_of(const std::vector<report::ContenderSummary>& summaries) {
-  std::string table = fmt::format("  {:<10}{:>7}{:>9}{:>16}{:>12}{:>10}{:>10}  other outcomes\n", "contender", "goals",
-                                  "rate", "95 % interval", "median s", "pose cm", "ball cm");
+  std::size_t width = 9;
+  for (const report::ContenderSummary& s : summaries) width = std::max(width, s.contender.size());
+  const auto number = [](double value, int digits) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("–");
+  };
+  std::string table = fmt::format("  {:<{}}{:>9}{:>9}{:>16}{:>10}{:>10}{:>10}  other outcomes\n", "contender", width,
+                                  "goals", "rate", "95 % interval", "median s", "pose cm", "ball cm");
   for (const report::ContenderSummary& s : summaries) {
-    const double rate = s.episodes > 0 ? 100.0 * s.goals / s.episodes : kUnknown;
+    const std::string goals = fmt::format("{}/{}", s.goals, s.episodes);
+    const std::string rate = s.episodes > 0 ? fmt::format("{:.1f} %", 100.0 * s.goals / s.episodes) : "–";
     const std::string interval = fmt::format("{:.1f}–{:.1f} %", 100.0 * s.rate_low, 100.0 * s.rate_high);
     std::string others;
     for (const auto& [outcome, count] : s.outcomes) {
       if (outcome != "goal") others += fmt::format("{}{} {}", others.empty() ? "" : ", ", outcome, count);
     }
-    fmt::format_to(std::back_inserter(table), "  {:<10}{:>3}/{:<3}{:>7.1f} %{:>16}{:>12.2f}{:>10.1f}{:>10.1f}  {}\n",
-                   s.contender, s.goals, s.episodes, rate, interval, s.median_time_s, 100.0 * s.pose_error_m,
-                   100.0 * s.ball_error_m, others.empty() ? "none" : others);
+    fmt::format_to(std::back_inserter(table), "  {:<{}}{:>9}{:>9}{:>16}{:>10}{:>10}{:>10}  {}\n", s.contender, width,
+                   goals, rate, interval, number(s.median_time_s, 2), number(100.0 * s.pose_error_m, 1),
+                   number(100.0 * s.ball_error_m, 1), others.empty() ? "none" : others);
   }
   return table;
 }

@@ -23,7 +23,7 @@ class Controller {
   virtual void start() = 0;  // a new episode: forgets the last one
   virtual Command step(const Observation& observation) = 0;
 
-  // Of the last step; the same names in the same order every time.
+  // Of the last step; the same names and units in the same order every time, from the beginning on.
   virtual const std::vector<Signal>& signals() const = 0;
 };
 

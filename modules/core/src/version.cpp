@@ -1,0 +1,9 @@
+#include "movis/core/version.h"
+
+namespace movis {
+
+const char* version() {
+  return MOVIS_VERSION;
+}
+
+}  // namespace movis
