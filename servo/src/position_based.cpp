@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "movis/core/error.h"
 #include "movis/servo/planar_task.h"
 #include "movis/servo/way_round.h"
 #include "visp_frames.h"
@@ -71,7 +72,13 @@ PositionBased::PositionBased(control::Task task, const PbvsOptions& options)
     : task_(std::move(task)),
       options_(options),
       servo_(std::make_unique<Servo>(options)),
-      signals_{{"e_x", "m", 0.0}, {"e_y", "m", 0.0}, {"e_theta", "°", 0.0}, {"detour", "°", 0.0}} {}
+      signals_{{"e_x", "m", 0.0}, {"e_y", "m", 0.0}, {"e_theta", "°", 0.0}, {"detour", "°", 0.0}} {
+  const double standoff = task_.robot.radius + task_.ball_radius + options_.gap;
+  if (standoff <= 0.0) {
+    throw Error("pbvs: a gap of {} m puts a robot of radius {} m beyond the ball's centre; make gap larger",
+                options_.gap, task_.robot.radius);
+  }
+}
 
 PositionBased::~PositionBased() = default;
 

@@ -148,10 +148,13 @@ TEST(ShouldKick, RoomForBallAndScatter) {
   EXPECT_FALSE(kicks({-0.2501, 0.0}, 0.0));
 }
 
-// By hand: from Y = −1.5 the same is 0.5 − (0.11 + 0.2441477)/0.9975641 = 0.1449876, less than 0.5/3 = 0.1666667.
+// By hand: from (0, −4) the posts stand at ±atan(0.5/6) = ±4.763642°, and the ball needs asin(0.11/√36.25) = 1.046889°
+// beside them: a window of ±3.716753°, less than six sigma. Its middle third is ±1.238918°.
 TEST(ShouldKick, MiddleThirdFromFarAway) {
-  EXPECT_TRUE(kicks({0.1665, -1.5}, 0.0));
-  EXPECT_FALSE(kicks({0.1669, -1.5}, 0.0));
+  EXPECT_TRUE(kicks({0.0, -4.0}, radians(1.2388)));
+  EXPECT_FALSE(kicks({0.0, -4.0}, radians(1.2390)));
+  EXPECT_TRUE(kicks({0.0, -4.0}, radians(-1.2388)));
+  EXPECT_FALSE(kicks({0.0, -4.0}, radians(-1.2390)));
 }
 
 // By hand, at β = 45° from (x, 1.5), which aims at the goal's centre with x = 0.5. Turned to 41°, the right post is
@@ -164,13 +167,19 @@ TEST(ShouldKick, ObliqueRay) {
   EXPECT_FALSE(kicks({0.2426, 1.5}, kPi / 4.0));
 }
 
-// By hand: at cos β = 0.3 the ball takes 0.11/0.3 = 0.3666667 m of the line on each side, so 0.1333333 m are left for
-// its centre, less than the middle third.
+// By hand: from (3, 1.5) the left post is seen at atan2(3.5, 0.5) = 81.8699° and the ball needs asin(0.11/√12.5) =
+// 1.7829° beside it, the right one at atan2(2.5, 0.5) = 78.6901° and asin(0.11/√6.5) = 2.4728°: there is no window.
 TEST(ShouldKick, NeverWithoutRoomForTheBall) {
-  const double beta = std::acos(0.3);
-  const double to_the_left = std::tan(beta);  // over 1 m of Y
-  EXPECT_TRUE(kicks({to_the_left + 0.1332, 1.0}, beta));
-  EXPECT_FALSE(kicks({to_the_left + 0.1335, 1.0}, beta));
+  for (const double beta_deg : {79.0, 80.0, 81.0, 81.5}) EXPECT_FALSE(kicks({3.0, 1.5}, radians(beta_deg)));
+}
+
+// By hand: from (2, 1.5) it is 78.6901° − 2.4728° = 76.2173° and 71.5651° + 3.9893° = 75.5544°: 0.6629° wide. The
+// middle third ends at 75.7754° and 75.9963°.
+TEST(ShouldKick, MiddleThirdOfANarrowWindow) {
+  EXPECT_TRUE(kicks({2.0, 1.5}, radians(75.78)));
+  EXPECT_FALSE(kicks({2.0, 1.5}, radians(75.77)));
+  EXPECT_TRUE(kicks({2.0, 1.5}, radians(75.99)));
+  EXPECT_FALSE(kicks({2.0, 1.5}, radians(76.00)));
 }
 
 TEST(ShouldKick, NeverThroughAGoalThatIsTooNarrow) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <stdexcept>
 
 #include "movis/core/paths.h"
 #include "movis/experiments/contender.h"
@@ -96,6 +97,24 @@ TEST(Match, ScenarioWithoutAField) {
   sim::Scenario scenario = short_scenario(1.0);
   scenario.arena.field.reset();
   test::expect_error([&] { Match(scenario, {}); }, {"resting-ball", "no field"});
+}
+
+TEST(Match, FieldWhoseGoalsNoBallCanEnter) {
+  sim::Scenario scenario = short_scenario(1.0);
+  scenario.arena.field->goal_height = 0.2;
+  test::expect_error([&] { Match(scenario, {}); }, {"resting-ball", "goal_height", "0.2 m"});
+}
+
+TEST(Match, EveryTickMayEndIt) {
+  MatchOptions options;
+  int ticks = 0;
+  options.every_tick = [&] {
+    if (++ticks == 3) throw std::runtime_error("enough");
+  };
+  Match match(short_scenario(20.0), options);
+  Puppet puppet({});
+  test::expect_error([&] { match.play("still", puppet, 1); }, {"enough"});
+  EXPECT_EQ(puppet.steps, 2);
 }
 
 TEST(Match, UnknownLocalizer) {

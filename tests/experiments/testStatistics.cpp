@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
+#include "movis/core/random.h"
 #include "movis/experiments/statistics.h"
 
 namespace movis::experiments {
@@ -29,8 +31,10 @@ TEST(WilsonInterval, NoTrial) {
   EXPECT_DOUBLE_EQ(wilson_interval(0, 0).high, 1.0);
 }
 
-report::Episode episode(const std::string& contender, const std::string& outcome, double duration_s) {
+report::Episode episode(const std::string& contender, const std::string& outcome, double duration_s,
+                        std::uint64_t seed = 0) {
   report::Episode episode;
+  episode.seed = seed;
   episode.contender = contender;
   episode.outcome = outcome;
   episode.duration_s = duration_s;
@@ -61,6 +65,39 @@ TEST(Summarize, MeanErrorsOverKnownTicks) {
   const report::ContenderSummary summary = summarize("a", {played});
   EXPECT_NEAR(summary.pose_error_m, 0.04, 1e-12);
   EXPECT_NEAR(summary.ball_error_m, 0.02, 1e-12);
+}
+
+// Differences of 1, 2 and 3 s; the fourth start has no pair, as one of them missed.
+TEST(PairedTimes, OverTheStartsFromWhichBothScored) {
+  std::vector<report::Episode> episodes;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    episodes.push_back(episode("a", "goal", 10.0 * static_cast<double>(seed) + static_cast<double>(seed), seed));
+    episodes.push_back(episode("b", "goal", 10.0 * static_cast<double>(seed), seed));
+  }
+  episodes.push_back(episode("a", "goal", 100.0, 4));
+  episodes.push_back(episode("b", "ball_out", 1.0, 4));
+  const PairedDifference difference = paired_times("a", "b", episodes);
+  EXPECT_EQ(difference.pairs, 3);
+  EXPECT_NEAR(difference.mean_s, 2.0, 1e-12);
+  EXPECT_GE(difference.interval_s.low, 1.0);
+  EXPECT_LE(difference.interval_s.high, 3.0);
+  EXPECT_LT(difference.interval_s.low, difference.interval_s.high);
+  EXPECT_EQ(paired_times("a", "c", episodes).pairs, 0);
+}
+
+// For many differences of variance 1 the interval is that of the normal distribution: ±1.96/√n.
+TEST(PairedTimes, IntervalOfManyIsTheNormalOne) {
+  RandomStream random = make_stream(3, 0);
+  std::normal_distribution<double> normal(0.5, 1.0);
+  std::vector<report::Episode> episodes;
+  constexpr int kPairs = 2500;
+  for (std::uint64_t seed = 0; seed < kPairs; ++seed) {
+    episodes.push_back(episode("a", "goal", 10.0 + normal(random), seed));
+    episodes.push_back(episode("b", "goal", 10.0, seed));
+  }
+  const PairedDifference difference = paired_times("a", "b", episodes);
+  EXPECT_NEAR(difference.interval_s.high - difference.mean_s, 1.96 / 50.0, 0.004);
+  EXPECT_NEAR(difference.mean_s - difference.interval_s.low, 1.96 / 50.0, 0.004);
 }
 
 TEST(Summarize, NoGoal) {

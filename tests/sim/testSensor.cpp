@@ -124,7 +124,7 @@ TEST(SensorNoise, IndependentBetweenPixelsChannelsCamerasAndFrames) {
   EXPECT_LT(std::abs(correlation(green, light_at(others.memory[0], wall, 1))), kMost);
 }
 
-TEST(SensorNoise, DISABLED_NotTheSameOneRowLowerWithTheNextSeed) {
+TEST(SensorNoise, NotTheSameOneRowLowerWithTheNextSeed) {
   const RenderScene scene = noisy_scene();
   const cv::Mat1b wall = wall_pixels(scene);
   const auto green = light_at(scene.images(1).memory[0], wall, 1);

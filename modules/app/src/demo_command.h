@@ -15,7 +15,7 @@ struct DemoArguments {
   std::vector<std::string> controllers = {"fuzzy", "pbvs"};
   std::string localizer = "composed";
   int episodes = 6;
-  std::uint64_t seed = 1;  // of the first episode; the others count on from it
+  std::int64_t seed = 1;  // of the first episode; the others count on from it
 };
 
 // `movis demo`: plays episodes of approach-and-shoot on rendered images, every controller from the same starts, and

@@ -1,5 +1,6 @@
 #include "interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 #include "movis/core/error.h"
@@ -7,10 +8,13 @@
 namespace movis::app {
 namespace {
 
-volatile std::sig_atomic_t signal_seen = 0;  // NOLINT: a signal handler has no other way
+std::atomic<bool> signal_seen = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
-extern "C" void remember_signal(int /*signal*/) {
-  signal_seen = 1;
+// A second signal ends the program at once.
+extern "C" void remember_signal(int signal) {
+  signal_seen = true;
+  std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
@@ -20,7 +24,7 @@ void catch_interrupts() {
 }
 
 void check_interrupts() {
-  if (signal_seen != 0) throw Error("interrupted; nothing was written");
+  if (signal_seen) throw Error("interrupted; nothing was written");
 }
 
 }  // namespace movis::app

@@ -1,5 +1,6 @@
 #include "movis/control/percepts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace movis::control {
@@ -12,17 +13,19 @@ double direction(const Vector2d& vector_in_robot) {
   return wrap_angle(std::atan2(-vector_in_robot.x(), vector_in_robot.y()));
 }
 
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
+// The directions, as turns from the field's +Y, in which a ball on the field's side of the goal line passes between the
+// posts: along its edge it passes a post at a ball's radius.
+struct Window {
+  double left = 0.0, right = 0.0;  // left < right: there is no such direction
+};
 
-// Whether a ball on the field's side of the goal line passes between the posts when it rolls along a direction, given
-// as its turn from the field's +Y.
-bool passes_posts(const Vector2d& ball, double direction_in_field, const Task& task) {
-  const Vector2d along(-std::sin(direction_in_field), std::cos(direction_in_field));
-  const Vector2d left_post(-task.field.Fw, task.field.Fd);
-  const Vector2d right_post(task.field.Fw, task.field.Fd);
-  return cross(along, left_post - ball) >= task.ball_radius && cross(right_post - ball, along) >= task.ball_radius;
+Window window_of(const Vector2d& ball, const Task& task) {
+  const auto edge = [&](double post_x, double side) {
+    const Vector2d to_post = Vector2d(post_x, task.field.Fd) - ball;
+    const double clear = std::asin(std::min(1.0, task.ball_radius / to_post.norm()));
+    return std::atan2(-to_post.x(), to_post.y()) - side * clear;
+  };
+  return {edge(-task.field.Fw, 1.0), edge(task.field.Fw, -1.0)};
 }
 
 }  // namespace
@@ -49,13 +52,12 @@ bool should_kick(const Observation& observation, const Task& task) {
 
   const Vector2d ball = world.world_from_robot * world.ball_in_robot;
   if (ball.y() >= task.field.Fd) return false;
-  const double ahead = world.world_from_robot.beta;
-  if (!passes_posts(ball, ahead, task)) return false;
-
-  const double scatter = 2.0 * task.robot.kicker.direction_sigma;
-  if (passes_posts(ball, ahead + scatter, task) && passes_posts(ball, ahead - scatter, task)) return true;
-  const double on_goal_line = ball.x() - std::tan(ahead) * (task.field.Fd - ball.y());
-  return std::abs(on_goal_line) <= task.field.Fw / 3.0;
+  const Window window = window_of(ball, task);
+  const double width = window.left - window.right;
+  if (width <= 0.0) return false;
+  const double ahead = wrap_angle(world.world_from_robot.beta);
+  const double room = std::min(window.left - ahead, ahead - window.right);
+  return room >= std::min(2.0 * task.robot.kicker.direction_sigma, width / 3.0);
 }
 
 }  // namespace movis::control

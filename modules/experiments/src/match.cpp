@@ -11,11 +11,6 @@
 namespace movis::experiments {
 namespace {
 
-control::Task task_of(const sim::Scenario& scenario) {
-  if (!scenario.arena.field) throw Error("scenario '{}' has no field: there is no goal to shoot at", scenario.name);
-  return {*scenario.arena.field, scenario.robot, sim::kBallRadius};
-}
-
 localization::Localizer localizer_of(const std::string& name) {
   if (const localization::Localizer localizer = localization::find_localizer(name)) return localizer;
   const auto known = localization::localizer_names();
@@ -49,8 +44,24 @@ report::EpisodeView view_of(const grab::FrameSet& images) {
 
 }  // namespace
 
+control::Task task_of(const sim::Scenario& scenario) {
+  if (!scenario.arena.field) {
+    throw Error("scenario '{}' has no field: there is no goal to shoot at; name a `field` in it", scenario.name);
+  }
+  const Field& field = *scenario.arena.field;
+  constexpr double kBall = 2.0 * sim::kBallRadius;
+  if (2.0 * field.Fw <= kBall || field.goal_height <= kBall || field.goal_depth <= kBall + 0.5 * sim::kBackPanel) {
+    throw Error(
+        "scenario '{}': no ball can enter the goals of its field: a ball is {} m thick, a goal {} m wide inside, {} m "
+        "high and {} m deep; check Fw, goal_height and goal_depth",
+        scenario.name, kBall, 2.0 * field.Fw, field.goal_height, field.goal_depth);
+  }
+  return {field, scenario.robot, sim::kBallRadius};
+}
+
 Match::Match(const sim::Scenario& scenario, const MatchOptions& options)
-    : options_(options), task_(task_of(scenario)), simulator_(scenario, 0), player_(make_player(scenario, options)) {}
+    : options_(options), task_(task_of(scenario)), player_(make_player(scenario, options)),
+      simulator_(scenario, 0) {}
 
 report::Episode Match::play(const std::string& contender, control::Controller& controller, std::uint64_t seed,
                             double view_interval_s) {
@@ -62,6 +73,7 @@ report::Episode Match::play(const std::string& contender, control::Controller& c
   controller.start();
   double next_view_s = 0.0;
   while (simulator_.acquire(images_)) {
+    if (options_.every_tick) options_.every_tick();
     const control::Command command = pipeline::play(player_, controller, images_);
     simulator_.send(command);
     episode.ticks.push_back(recorded(command, controller));

@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "movis/core/random.h"
+
 namespace movis::experiments {
 namespace {
 
@@ -42,6 +44,41 @@ Interval wilson_interval(int successes, int trials) {
   const double half = kZ * std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
   const double scale = 1.0 / (1.0 + kZ * kZ / n);
   return {std::max(0.0, scale * (middle - half)), std::min(1.0, scale * (middle + half))};
+}
+
+PairedDifference paired_times(const std::string& one, const std::string& other,
+                              const std::vector<report::Episode>& episodes) {
+  std::map<std::uint64_t, double> times;
+  for (const report::Episode& e : episodes) {
+    if (e.contender == one && e.outcome == "goal") times[e.seed] = e.duration_s;
+  }
+  std::vector<double> differences;
+  for (const report::Episode& e : episodes) {
+    const auto found = times.find(e.seed);
+    if (e.contender == other && e.outcome == "goal" && found != times.end()) {
+      differences.push_back(found->second - e.duration_s);
+    }
+  }
+  PairedDifference result;
+  result.pairs = static_cast<int>(differences.size());
+  if (differences.empty()) return result;
+
+  constexpr int kResamples = 4000;
+  RandomStream random = make_stream(1, 0);  // the same interval for the same episodes
+  std::uniform_int_distribution<std::size_t> draw(0, differences.size() - 1);
+  std::vector<double> means;
+  means.reserve(kResamples);
+  for (int i = 0; i < kResamples; ++i) {
+    Mean mean;
+    for (std::size_t k = 0; k < differences.size(); ++k) mean.add(differences[draw(random)]);
+    means.push_back(mean.value());
+  }
+  std::sort(means.begin(), means.end());
+  Mean mean;
+  for (const double difference : differences) mean.add(difference);
+  result.mean_s = mean.value();
+  result.interval_s = {means[kResamples / 40], means[kResamples - 1 - kResamples / 40]};
+  return result;
 }
 
 report::ContenderSummary summarize(const std::string& contender, const std::vector<report::Episode>& episodes) {

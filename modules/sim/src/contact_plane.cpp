@@ -3,6 +3,7 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
+#include <mutex>
 #include <vector>
 
 #include "panels.h"
@@ -56,6 +57,17 @@ class Heights : public b2ContactListener {
  private:
   std::vector<double> heights_;
 };
+
+// Box2D fills a table of its own at the first contact of the process. That must not happen in two threads at once.
+void fill_contact_table() {
+  b2World world(b2Vec2(0.0F, 0.0F));
+  b2BodyDef definition;
+  definition.type = b2_dynamicBody;
+  b2CircleShape circle;
+  circle.m_radius = 1.0F;
+  for (int i = 0; i < 2; ++i) world.CreateBody(&definition)->CreateFixture(&circle, 1.0F);
+  world.Step(0.01F, 1, 1);
+}
 
 }  // namespace
 
@@ -113,6 +125,8 @@ struct ContactPlane::World {
 
 ContactPlane::ContactPlane(const Arena& arena, const control::RobotModel& robot, const PhysicsOptions& options)
     : world_(std::make_unique<World>()) {
+  static std::once_flag filled;
+  std::call_once(filled, fill_contact_table);
   World& world = *world_;
   world.friction = static_cast<float>(options.contact_friction);
   world.world.SetContactListener(&world.heights);

@@ -15,11 +15,11 @@ inline float shade(const Light& light, const Eigen::Vector3f& point, const Eigen
   return std::max(0.05F, light.ambient + light.sky * normal.z() + light.lamp * towards_lamp);
 }
 
-// What a glossy surface adds: the lamps hang in a ring, some 50° up, so it is brightest where a ray is mirrored to
+// What a glossy surface adds: the lamps hang in a ring, some 35° up, so it is brightest where a ray is mirrored to
 // that elevation.
 inline float glossy(const Light& light, const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
-  constexpr float kLampsSine = 0.77F;
-  constexpr float kWidth = 0.16F;
+  constexpr float kLampsSine = 0.58F;
+  constexpr float kWidth = 0.37F;
   const float mirrored = direction.z() - 2.0F * direction.dot(normal) * normal.z();
   const float off = (mirrored - kLampsSine) / kWidth;
   return light.gloss * std::exp(-0.5F * off * off);

@@ -14,8 +14,6 @@ struct Panel {
   double height = 0.0;
 };
 
-inline constexpr double kBackPanel = 0.02;  // thickness of a goal's back, metres; it lies centred on the goal's depth
-
 // Both goals: two side walls each, outside ±Fw from the goal line outward, and the back between them.
 std::vector<Panel> goal_panels(const Field& field);
 

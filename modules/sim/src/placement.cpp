@@ -1,9 +1,11 @@
 #include "placement.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "movis/core/error.h"
+#include "movis/sim/referee.h"
 #include "movis/sim/scenario.h"
 #include "panels.h"
 
@@ -65,7 +67,8 @@ State draw_start(const Scenario& scenario, RandomStream& random) {
     const double heading = drawn(kPi, random);
     const Pose2 robot = scenario.robot_start.value_or(Pose2{place.x(), place.y(), wrap_angle(heading)});
     const Eigen::Vector2d ball = scenario.ball_start.value_or(draw_place(field, scenario.margin, random));
-    const std::string what = obstruction(scenario, robot, ball);
+    const bool over = judge(at(robot, ball), field, std::numeric_limits<double>::infinity()).has_value();
+    const std::string what = over ? "an outcome at once" : obstruction(scenario, robot, ball);
     if (what.empty()) return at(robot, ball);
     ++obstructions[what];
   }

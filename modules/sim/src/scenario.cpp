@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "movis/core/yaml.h"
@@ -101,6 +102,32 @@ void check_rig(const YamlMap& map, const omni::Rig& rig, const control::RobotMod
   }
 }
 
+// The hall holds everything, and the renderer paints all of its floor.
+void check_hall(const YamlMap& map, const Scenario& scenario) {
+  constexpr double kAround = 1.0;         // metres beyond the lines that a robot may go, see judge()
+  constexpr double kLargestField = 30.0;  // metres, half of it
+  const double half_width = scenario.look.hall_half_width;
+  if (scenario.arena.field) {
+    const Field& field = *scenario.arena.field;
+    const double longest = std::max({field.half_width, field.half_length, field.Fd + field.goal_depth});
+    if (longest > kLargestField) {
+      map.fail("field",
+               fmt::format("is {} m long from its centre; at most {} m are simulated", longest, kLargestField));
+    }
+    const double needed = longest + kAround + scenario.robot.radius;
+    if (needed > half_width) {
+      map.fail("look", fmt::format("puts the walls of the hall {} m from the centre; the field and a robot around it "
+                                   "need {:.2f} m: make hall_half_width larger",
+                                   half_width, needed));
+    }
+  }
+  for (const Obstacle& obstacle : scenario.arena.obstacles) {
+    if (obstacle.position.cwiseAbs().maxCoeff() + obstacle.radius < half_width) continue;
+    map.fail("obstacles", fmt::format("has one at ({}, {}), outside the hall, whose walls are {} m from the centre",
+                                      obstacle.position.x(), obstacle.position.y(), half_width));
+  }
+}
+
 // Refuses what ends the episode at once, and what overlaps something.
 void check_start(const YamlMap& start, const char* key, const Scenario& scenario, const State& state,
                  const Eigen::Vector2d& position, double radius) {
@@ -171,6 +198,7 @@ Scenario read_scenario(const std::filesystem::path& file) {
   if (map.has("obstacles")) read_obstacles(map, scenario.arena);
   if (map.has("start")) read_start(map.map("start"), scenario);
   complete_start(map, scenario);
+  check_hall(map, scenario);
   return scenario;
 }
 

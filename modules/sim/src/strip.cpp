@@ -1,7 +1,7 @@
 #include "strip.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace movis::sim {
 namespace {
@@ -130,6 +130,17 @@ void paint_tiles(const HallView& view, const SensorRow& sensor, const Colour& be
   for (int v = 0; v < rows; ++v) paint_robot(view, top + v, {light.rows[0][v], light.rows[1][v], light.rows[2][v]});
 }
 
+// What the spans of a row and of those up to `radius` rows from it cover together.
+Eye::Span around_row(const std::vector<Eye::Span>& spans, int row, int radius) {
+  Eye::Span all{std::numeric_limits<int>::max(), 0};
+  const int last = std::min(row + radius, static_cast<int>(spans.size()) - 1);
+  for (int i = std::max(0, row - radius); i <= last; ++i) {
+    if (spans[i].empty()) continue;
+    all = {std::min(all.begin, spans[i].begin), std::max(all.end, spans[i].end)};
+  }
+  return all;
+}
+
 void expose_row(const CameraParts& camera, int row, std::uint64_t seed, Workspace& work, std::uint8_t* bgr) {
   const SensorRow& sensor = camera.sensor;
   const int radius = sensor.radius();
@@ -139,8 +150,8 @@ void expose_row(const CameraParts& camera, int row, std::uint64_t seed, Workspac
       work.rows[channel][i + radius] = light_row(work, sensor, around, channel);
     }
   }
-  const auto key = static_cast<std::uint32_t>(mixed(seed + static_cast<std::uint64_t>(row)));
-  const Eye::Span mirror = camera.eye.mirror[row];
+  const auto key = static_cast<std::uint32_t>(mixed(mixed(seed) + static_cast<std::uint64_t>(row)));
+  const Eye::Span mirror = around_row(camera.eye.mirror, row, radius);
   const int begin = mirror.empty() ? 0 : std::max(0, mirror.begin - radius);
   const int end = mirror.empty() ? 0 : std::min(sensor.width, mirror.end + radius);
   camera.surrounding.copy(key, 0, begin, bgr);

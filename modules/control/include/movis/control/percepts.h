@@ -34,10 +34,10 @@ struct Percepts {
 
 Percepts perceive(const Observation& observation, const Task& task);
 
-// The kick rule, one for all controllers: the ball is within the kicker's reach, and rolling straight ahead it passes
-// between the goal's posts, both of them a ball's radius or more beside its way; and so it does when turned by two
-// sigma of the kicker's scatter to either side. Where the goal is too far for that, its middle third will do: straight
-// ahead the ball meets the goal line within ±Fw/3.
+// The kick rule, one for all controllers: the ball is within the kicker's reach, and straight ahead lies in the window
+// of directions in which it rolls between the goal's posts without touching them, two sigma of the kicker's scatter or
+// more from either edge, or, where the window is narrower than six sigma, in its middle third. So at least 95 % of the
+// kicks pass where the window is six sigma wide or more, and 68 % where it is three.
 bool should_kick(const Observation& observation, const Task& task);
 
 }  // namespace movis::control

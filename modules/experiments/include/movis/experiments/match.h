@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "movis/control/controller.h"
@@ -14,13 +15,18 @@ namespace movis::experiments {
 struct MatchOptions {
   std::string localizer = "composed";
   pipeline::Options pipeline;
+  std::function<void()> every_tick;  // called in every tick, if given; may throw to end the episode
 };
+
+// What controllers may know beforehand. Throws an Error where the scenario has no field, or one whose goals no ball can
+// enter.
+control::Task task_of(const sim::Scenario& scenario);
 
 // One scenario, to be played by any controller from any seed: simulated cameras, the robot's eyes on them, and what
 // happened. The controller sees the images' estimates alone; the truth goes into the record, beside them.
 class Match {
  public:
-  // Throws an Error where the scenario has no field: there would be no goal to shoot at.
+  // Throws an Error as task_of() does, and where the scenario's rig or field cannot be used by the pipeline.
   Match(const sim::Scenario& scenario, const MatchOptions& options);
 
   // What controllers may know beforehand.
@@ -36,8 +42,8 @@ class Match {
 
   MatchOptions options_;
   control::Task task_;
-  sim::Simulator simulator_;
   pipeline::Player player_;
+  sim::Simulator simulator_;
   grab::FrameSet images_;
 };
 

@@ -17,6 +17,18 @@ struct Interval {
 // Without a trial nothing is known: [0, 1].
 Interval wilson_interval(int successes, int trials);
 
+// The mean difference of the times to the goal, `one` less `other`, over the starts from which both scored, with its 95
+// % bootstrap interval (B. Efron, R. Tibshirani, An introduction to the bootstrap, 1993, chapter 13: percentiles of
+// resampled starts). Both played the same starts, so what a start costs everyone cancels.
+struct PairedDifference {
+  int pairs = 0;  // 0: nothing else means anything
+  double mean_s = 0.0;
+  Interval interval_s;
+};
+
+PairedDifference paired_times(const std::string& one, const std::string& other,
+                              const std::vector<report::Episode>& episodes);
+
 // What came of one contender's episodes.
 report::ContenderSummary summarize(const std::string& contender, const std::vector<report::Episode>& episodes);
 

@@ -18,7 +18,7 @@ struct Light {
   float lamp = 0.26F;
   float lamp_height = 3.0F;  // metres
   float shadow = 0.25F;      // of the floor's light that an object standing on it takes right beside it
-  float gloss = 0.06F;       // added where a ball mirrors the lamps
+  float gloss = 0.068F;      // added where a ball mirrors the lamps
 };
 
 // The lens and the sensor. The noise of a pixel whose linear signal is s (1: white) has the variance

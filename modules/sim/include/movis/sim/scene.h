@@ -40,5 +40,6 @@ struct State {
 };
 
 inline constexpr double kBallRadius = 0.11;  // metres
+inline constexpr double kBackPanel = 0.02;   // thickness of a goal's back, metres; it lies centred on the goal's depth
 
 }  // namespace movis::sim
