@@ -1,10 +1,16 @@
 #include "movis/sim/look.h"
 
+#include <cmath>
+
 #include "movis/core/yaml.h"
-#include "srgb.h"
 
 namespace movis::sim {
 namespace {
+
+// The sRGB curve (IEC 61966-2-1) backwards; values in 0…1.
+double linear_of_srgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
 
 Colour read_colour(const YamlMap& map, const char* key) {
   const std::vector<double> rgb = map.numbers(key, 3, {0.0, 255.0});
