@@ -33,6 +33,7 @@ constexpr std::array<Kind, 2> kKinds = {
 
 std::vector<std::string> controller_names() {
   std::vector<std::string> names;
+  names.reserve(kKinds.size());
   for (const Kind& kind : kKinds) names.emplace_back(kind.name);
   return names;
 }

@@ -19,10 +19,10 @@ Surrounding::Surrounding(const Colour& colour, const Sensor& sensor, int width) 
   std::array<std::vector<float>, 3> planes;
   for (int channel = 0; channel < 3; ++channel) {
     planes[channel].assign(static_cast<std::size_t>(row.row_floats), colour[channel]);
-    light[channel].assign(static_cast<std::size_t>(2 * row.radius() + 1), planes[channel].data());
+    light[channel].assign(std::size_t{2} * static_cast<std::size_t>(row.radius()) + 1, planes[channel].data());
   }
   std::vector<float> scratch(static_cast<std::size_t>(3) * row.row_floats);
-  bgr_.resize(static_cast<std::size_t>(3) * count);
+  bgr_.resize(std::size_t{3} * static_cast<std::size_t>(count));
   expose(light, row, 0, count, 0, scratch.data(), bgr_.data());
 }
 
