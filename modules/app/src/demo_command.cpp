@@ -15,7 +15,6 @@
 
 #include "interrupt.h"
 #include "movis/core/error.h"
-#include "movis/core/names.h"
 #include "movis/core/output_file.h"
 #include "movis/core/paths.h"
 #include "movis/core/version.h"
@@ -152,8 +151,9 @@ report::EpisodePage make_page(std::vector<report::Episode> episodes, const DemoA
   episodes.erase(std::remove_if(episodes.begin(), episodes.end(), not_shown), episodes.end());
   report::EpisodePage page = experiments::page_of(scenario, summaries, std::move(episodes));
   page.title = "MOVIS: approach and shoot";
-  page.command = fmt::format("movis demo --episodes {} --seed {} --controllers {} --localizer {}", arguments.episodes,
-                             arguments.seed, joined(arguments.controllers), arguments.localizer);
+  page.command =
+      fmt::format("build/bin/movis demo --episodes {} --seed {} --controllers {} --localizer {}", arguments.episodes,
+                  arguments.seed, fmt::join(arguments.controllers, ","), arguments.localizer);
   if (arguments.scenario) page.command += " --scenario " + arguments.scenario->string();
   return page;
 }

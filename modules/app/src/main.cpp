@@ -44,14 +44,17 @@ void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
 void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
   CLI::App* demo = program.add_subcommand("demo", "Play approach-and-shoot on rendered images; one HTML page about it");
   demo->add_option("--out", arguments.out, "The page")->capture_default_str();
-  demo->add_option("--episodes", arguments.episodes, "Starts; every controller plays each of them")
+  demo->add_option("--episodes", arguments.episodes,
+                   "Starts; every controller plays each of them, the page shows the first six")
       ->check(CLI::Range(1, 2000))
       ->capture_default_str();
   demo->add_option("--seed", arguments.seed, "Of the first start; the others count on from it")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
       ->capture_default_str();
-  demo->add_option("--scenario", arguments.scenario, "Default: data/scenarios/resting-ball.yaml");
-  demo->add_option("--controllers", arguments.controllers, "fuzzy[:FILE] and pbvs[:FILE], separated by commas")
+  demo->add_option("--scenario", arguments.scenario,
+                   "What is played: a scenario.yaml; default: data/scenarios/resting-ball.yaml");
+  demo->add_option("--controllers", arguments.controllers,
+                   "fuzzy[:controller.yaml] and pbvs[:pbvs.yaml], separated by commas")
       ->delimiter(',')
       ->capture_default_str();
   demo->add_option("--localizer", arguments.localizer, "How goals become a pose")

@@ -34,7 +34,7 @@ function drawCurveLegend() {
   const box = "M1,0H23V10H1Z";
   addLegend(d3.select("#curve-legend"), [
     {path: {d: "M12,0V10", class: "cursor"}, text: "the chosen time"},
-    {path: {d: "M8,0L16,0L12,7Z", fill: TRUTH}, text: "a kick"},
+    {path: {d: "M8,0L16,0L12,7Z", fill: TRUTH}, text: "kick commanded"},
     {path: {d: box, fill: TROUBLE_COLOUR}, text: "the drive was not ok and stopped the robot"},
     {path: {d: box, fill: OVER_COLOUR}, text: "the episode is over"},
   ]);

@@ -8,7 +8,7 @@ function signalCharts(episode) {
   const units = d3.nest().key(s => s.unit).entries(episode.signals);
   return units.map(({key: unit, values: series}) => unit === "" ?
     {key: "weights", title: "Weights", series, format: 2, domain: [0, 1.04]} :
-    {key: "signal " + unit, title: `Task errors / ${unit}`, series, format: 2, least: 0.01});
+    {key: "signal " + unit, title: `Percepts and task errors / ${unit}`, series, format: 2, least: 0.01});
 }
 
 function estimateCharts({believed}) {

@@ -7,11 +7,11 @@ const KICK_ARROW = "M0,-9L0,-30M-5,-24L0,-31L5,-24";  // upwards, from the ball
 function drawPlanLegend() {
   const dots = colour => ({stroke: colour, "stroke-width": 4, "stroke-linecap": "round", "stroke-dasharray": "0.1 7"});
   addLegend(d3.select("#legend"), [
-    {line: {stroke: TRUTH, "stroke-width": 2}, text: `robot, a tick to where it heads every ${HEADING_EVERY_S} s`},
+    {line: {stroke: TRUTH, "stroke-width": 2}, text: `robot, a short line to where it heads every ${HEADING_EVERY_S} s`},
     {line: {stroke: classOf("ball").colour, "stroke-width": 2}, text: "ball"},
     {line: dots(ESTIMATE), text: "the robot’s pose as believed"},
     {line: dots(BALL_BELIEVED), text: "the ball as believed"},
-    {path: {d: "M2,5L20,5M14,1L21,5L14,9", stroke: TRUTH, "stroke-width": 2, fill: "none"}, text: "a kick"},
+    {path: {d: "M2,5L20,5M14,1L21,5L14,9", stroke: TRUTH, "stroke-width": 2, fill: "none"}, text: "kick commanded"},
     {line: {stroke: TRUTH, "stroke-width": 2, opacity: 0.3}, text: "faint: later than the chosen time"},
   ]);
 }
