@@ -1,73 +1,22 @@
-// The tick allocates nothing after its first run. malloc itself is interposed, as Eigen and OpenCV do not go through
-// operator new.
+// The tick allocates nothing after its first run.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cerrno>
-#include <cstdlib>
-
+#include "movis/fuzzy/hierarchy.h"
+#include "movis/pipeline/player.h"
+#include "movis/sim/simulator.h"
 #include "pipeline/tracked.h"
-
-#if !defined(__SANITIZE_ADDRESS__)
-
-namespace {
-std::atomic<bool> counting{false};        // NOLINT: malloc has no other way to be told
-std::atomic<int> allocations_counted{0};  // NOLINT
-
-void count() {
-  if (counting.load(std::memory_order_relaxed)) allocations_counted.fetch_add(1, std::memory_order_relaxed);
-}
-}  // namespace
-
-// NOLINTBEGIN: the names are glibc's own
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t number, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
-void* malloc(std::size_t size) {
-  count();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t number, std::size_t size) {
-  count();
-  return __libc_calloc(number, size);
-}
-void* realloc(void* memory, std::size_t size) {
-  count();
-  return __libc_realloc(memory, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return memalign(alignment, size);
-}
-int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
-  *memory = memalign(alignment, size);
-  return *memory != nullptr ? 0 : ENOMEM;
-}
-}
-// NOLINTEND
+#include "support/allocations.h"
 
 namespace movis {
 namespace {
 
-int allocations_in(const std::function<void()>& work) {
-  allocations_counted = 0;
-  counting = true;
-  work();
-  counting = false;
-  return allocations_counted;
-}
+#if defined(MOVIS_COUNTS_ALLOCATIONS)
 
 TEST(NoAllocation, TheCounterCounts) {
   void* volatile memory = nullptr;  // volatile: or the compiler leaves the pair out
-  EXPECT_EQ(allocations_in([&] { memory = std::malloc(1); }), 1);
+  EXPECT_EQ(test::allocations_in([&] { memory = std::malloc(1); }), 1);
   std::free(memory);
-  EXPECT_EQ(allocations_in([&] { memory = operator new(1); }), 1);
+  EXPECT_EQ(test::allocations_in([&] { memory = operator new(1); }), 1);
   operator delete(memory);
 }
 
@@ -82,14 +31,33 @@ TEST(NoAllocation, InTheTickAfterTheFirst) {
       pipeline::Pipeline pipeline = test::make_pipeline(source.dataset(), std::string(name).c_str());
       step(pipeline, sets.front());
       for (const grab::FrameSet& images : sets) {
-        EXPECT_EQ(allocations_in([&] { step(pipeline, images); }), 0) << set << " " << images.index << " " << name;
+        EXPECT_EQ(test::allocations_in([&] { step(pipeline, images); }), 0)
+            << set << " " << images.index << " " << name;
       }
     }
   }
 }
 
-}  // namespace
-}  // namespace movis
+// From images to a command. A task of ViSP would allocate some 150 times.
+TEST(NoAllocation, InTheTickOfAPlayer) {
+  const sim::Scenario scenario = sim::read_scenario(data_file("scenarios/resting-ball.yaml"));
+  const control::Task task{*scenario.arena.field, scenario.robot, sim::kBallRadius};
+  pipeline::Player player(
+      pipeline::Pipeline(scenario.rig, scenario.arena.field, scan::read_colours(data_file("colours/default.yaml")), {},
+                         localization::find_localizer("composed")),
+      scenario.robot);
+  fuzzy::Hierarchy controller(data_file("fuzzy/approach-and-shoot/controller.yaml"), task);
+  sim::Simulator simulator(scenario, 1);
+  grab::FrameSet images;
+  player.start(0.0);
+  for (int tick = 0; tick < 40; ++tick) {
+    ASSERT_TRUE(simulator.acquire(images));
+    control::Command command;
+    const int allocations = test::allocations_in([&] { command = play(player, controller, images); });
+    EXPECT_TRUE(tick == 0 || allocations == 0) << tick << ": " << allocations;
+    simulator.send(command);
+  }
+}
 
 #else
 
@@ -98,3 +66,6 @@ TEST(NoAllocation, InTheTickAfterTheFirst) {
 }
 
 #endif
+
+}  // namespace
+}  // namespace movis
