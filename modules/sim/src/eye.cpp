@@ -55,11 +55,12 @@ Eye::Eye(const omni::Rig& rig, std::size_t camera, const control::RobotModel& ro
 // Where there is no ray, all pixels around are the own robot's or beside the mirror, and any ray will do.
 void Eye::find_corners(const omni::Camera& camera) {
   const omni::Camera wide = widened(camera);
+  const Eigen::Matrix3d robot_from_camera = camera.robot_from_camera();
   for (auto& plane : corners) plane.assign(static_cast<std::size_t>(height + 1) * stride, 0.0F);
   for (int v = 0; v <= height; ++v) {
     for (int u = 0; u < stride; ++u) {
-      const auto ray = u <= width ? unproject(wide, Eigen::Vector2d(u - 0.5, v - 0.5)) : std::nullopt;
-      const Eigen::Vector3d direction = ray.value_or(Eigen::Vector3d::UnitX());
+      const auto ray = u <= width ? unproject(wide.model, Eigen::Vector2d(u - 0.5, v - 0.5)) : std::nullopt;
+      const Eigen::Vector3d direction = robot_from_camera * ray.value_or(Eigen::Vector3d::UnitX());
       for (int axis = 0; axis < 3; ++axis) {
         corners[axis][static_cast<std::size_t>(v) * stride + u] = static_cast<float>(direction[axis]);
       }

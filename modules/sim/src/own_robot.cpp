@@ -118,13 +118,13 @@ void see_unit(const Eigen::Vector3f& origin, const Eigen::Vector3f& ray, const o
 }
 
 // What a camera sees of the robot along one ray.
-Seen see_robot(const omni::Rig& rig, std::size_t index, const control::RobotModel& robot, const Look& look,
-               const Eigen::Vector2d& pixel) {
+Seen see_robot(const omni::Rig& rig, std::size_t index, const Eigen::Matrix3d& robot_from_camera,
+               const control::RobotModel& robot, const Look& look, const Eigen::Vector2d& pixel) {
   Seen seen;
-  const auto direction = unproject(rig.cameras[index], pixel);
+  const auto direction = unproject(rig.cameras[index].model, pixel);
   if (!direction) return {kBeside, look.outside, false, {}};
   const Eigen::Vector3f origin = rig.cameras[index].position.cast<float>();
-  const Eigen::Vector3f ray = direction->cast<float>();
+  const Eigen::Vector3f ray = (robot_from_camera * *direction).cast<float>();
   see_cylinder(origin, ray, Eigen::Vector2f::Zero(), static_cast<float>(robot.radius), 0.0F,
                static_cast<float>(robot.height), look.hull, look.light, seen);
   for (std::size_t other = 0; other < rig.cameras.size(); ++other) {
@@ -141,8 +141,9 @@ struct Pixel {
 };
 
 // A pixel by side × side rays.
-void look_at(const omni::Rig& rig, std::size_t index, const control::RobotModel& robot, const Look& look,
-             const Eigen::Vector2d& corner, int side, Pixel& pixel) {
+void look_at(const omni::Rig& rig, std::size_t index, const Eigen::Matrix3d& robot_from_camera,
+             const control::RobotModel& robot, const Look& look, const Eigen::Vector2d& corner, int side,
+             Pixel& pixel) {
   pixel.mirrored.clear();
   pixel.covered = pixel.beside = 0;
   pixel.samples = side * side;
@@ -150,7 +151,7 @@ void look_at(const omni::Rig& rig, std::size_t index, const control::RobotModel&
   for (int sample = 0; sample < pixel.samples; ++sample) {
     const int row = sample / side;
     const Eigen::Vector2d inside((sample % side + 0.5) / side, (row + 0.5) / side);
-    const Seen seen = see_robot(rig, index, robot, look, corner + inside);
+    const Seen seen = see_robot(rig, index, robot_from_camera, robot, look, corner + inside);
     if (seen.distance == kNothing) continue;
     ++pixel.covered;
     pixel.beside += seen.distance == kBeside ? 1 : 0;
@@ -165,6 +166,7 @@ void look_at(const omni::Rig& rig, std::size_t index, const control::RobotModel&
 OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::RobotModel& robot, const Look& look) {
   const omni::Camera& camera = rig.cameras[index];
   const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
+  const Eigen::Matrix3d robot_from_camera = camera.robot_from_camera();
   OwnRobot own;
   own.open.resize(pixels);
   own.outside.resize(pixels);
@@ -174,8 +176,8 @@ OwnRobot see_own_robot(const omni::Rig& rig, std::size_t index, const control::R
     const auto column = static_cast<int>(i % camera.width);
     const auto row = static_cast<int>(i / camera.width);
     const Eigen::Vector2d corner(column - 0.5, row - 0.5);
-    look_at(rig, index, robot, look, corner, kFewSamples, pixel);
-    if (pixel.mixed) look_at(rig, index, robot, look, corner, kSamples, pixel);
+    look_at(rig, index, robot_from_camera, robot, look, corner, kFewSamples, pixel);
+    if (pixel.mixed) look_at(rig, index, robot_from_camera, robot, look, corner, kSamples, pixel);
     own.outside[i] = pixel.beside == pixel.samples;
     own.open[i] = 1.0F - static_cast<float>(pixel.covered) / static_cast<float>(pixel.samples);
     for (int channel = 0; channel < 3; ++channel) {
