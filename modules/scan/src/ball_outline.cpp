@@ -1,6 +1,7 @@
 #include "ball_outline.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -44,11 +45,62 @@ void collect_outline(const ImageView& image, const PolarMap& map, Rows rows, Ref
   }
 }
 
+namespace {
+
+float median_of(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The cone through three points of the outline that most of the others lie closest to (least median of squares, P.
+// Rousseeuw, 1984): up to half of them may be of something else, such as the ball's image in another sensor unit's
+// mirror.
+std::optional<Vector3d> robust_cone(const std::vector<Eigen::Vector3f>& outline, std::vector<float>& values) {
+  constexpr std::size_t kTriples = 48;
+  constexpr std::size_t kJudges = 64;
+  const std::size_t count = outline.size();
+  const std::size_t stride = std::max<std::size_t>(1, count / kJudges);
+  std::optional<Vector3d> best;
+  double least = 0.0;
+  for (std::size_t k = 0; k < kTriples; ++k) {
+    const std::size_t first = k * count / kTriples;
+    const std::size_t second = first + count / 3 + 5 * k % (count / 6 + 1);
+    const std::size_t third = first + 2 * count / 3 + 11 * k % (count / 6 + 1);
+    Eigen::Matrix3d rays;
+    rays << outline[first].cast<double>().transpose(), outline[second % count].cast<double>().transpose(),
+        outline[third % count].cast<double>().transpose();
+    if (std::abs(rays.determinant()) < 1e-9) continue;
+    const Vector3d m = rays.inverse() * Vector3d::Ones();
+    values.clear();
+    for (std::size_t i = 0; i < count; i += stride) {
+      values.push_back(static_cast<float>(std::abs(outline[i].cast<double>().dot(m) - 1.0)));
+    }
+    const double median = median_of(values) / m.norm();
+    if (best && median >= least) continue;
+    best = m;
+    least = median;
+  }
+  return best;
+}
+
+}  // namespace
+
 std::optional<Cone> fit_cone(const std::vector<Eigen::Vector3f>& outline, double pixel, std::vector<float>& values) {
   constexpr int kRounds = 6;
   constexpr int kFewest = 12;
-  Vector3d m = Vector3d::Zero();
-  double limit = 1e9;
+  if (outline.size() < kFewest) return std::nullopt;
+  const std::optional<Vector3d> start = robust_cone(outline, values);
+  if (!start) return std::nullopt;
+  Vector3d m = *start;
+  const auto limit_around = [&] {
+    values.clear();
+    for (const Eigen::Vector3f& point : outline) {
+      values.push_back(static_cast<float>(std::abs(point.cast<double>().dot(m) - 1.0)));
+    }
+    return std::max(3.0 * median_of(values), 0.1 * pixel * m.norm());
+  };
+  double limit = limit_around();
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Vector3d right_side = Vector3d::Zero();
@@ -56,7 +108,7 @@ std::optional<Cone> fit_cone(const std::vector<Eigen::Vector3f>& outline, double
     int used = 0;
     for (const Eigen::Vector3f& point : outline) {
       const Vector3d ray = point.cast<double>();
-      const double residual = round == 0 ? 0.0 : ray.dot(m) - 1.0;
+      const double residual = ray.dot(m) - 1.0;
       if (std::abs(residual) > limit) continue;
       normal += ray * ray.transpose();
       right_side += ray;
@@ -75,13 +127,7 @@ std::optional<Cone> fit_cone(const std::vector<Eigen::Vector3f>& outline, double
       return Cone{axis, axis_by_m * (variance * solver.solve(Eigen::Matrix3d::Identity())) * axis_by_m.transpose()};
     }
     m = solver.solve(right_side);
-    values.clear();
-    for (const Eigen::Vector3f& point : outline) {
-      values.push_back(static_cast<float>(std::abs(point.cast<double>().dot(m) - 1.0)));
-    }
-    const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), median, values.end());
-    limit = std::max(3.0 * *median, 0.1 * pixel * m.norm());
+    limit = limit_around();
   }
   return std::nullopt;
 }
