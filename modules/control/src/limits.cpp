@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "movis/control/wheels.h"
+
 namespace movis::control {
 namespace {
-
-double wheel_rate(const OmniWheels& wheels, double azimuth, const Twist2& twist) {
-  return (-std::sin(azimuth) * twist.vx + std::cos(azimuth) * twist.vy + wheels.distance * twist.omega) / wheels.radius;
-}
 
 // What scales `size` down to `limit`, or 1.
 double fraction(double size, double limit) {

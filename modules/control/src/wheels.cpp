@@ -7,13 +7,18 @@
 
 namespace movis::control {
 
+double wheel_rate(const OmniWheels& wheels, double azimuth, const Twist2& twist) {
+  return (-std::sin(azimuth) * twist.vx + std::cos(azimuth) * twist.vy + wheels.distance * twist.omega) / wheels.radius;
+}
+
 Eigen::MatrixX3d rates_by_twist(const OmniWheels& wheels) {
   Eigen::MatrixX3d matrix(wheels.azimuths.size(), 3);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     const double azimuth = wheels.azimuths[i];
-    matrix.row(i) << -std::sin(azimuth), std::cos(azimuth), wheels.distance;
+    matrix.row(i) << wheel_rate(wheels, azimuth, {1.0, 0.0, 0.0}), wheel_rate(wheels, azimuth, {0.0, 1.0, 0.0}),
+        wheel_rate(wheels, azimuth, {0.0, 0.0, 1.0});
   }
-  return matrix / wheels.radius;
+  return matrix;
 }
 
 Eigen::VectorXd wheel_rates(const OmniWheels& wheels, const Twist2& twist) {

@@ -10,7 +10,9 @@ namespace movis::control {
 // Kinematics of three or more omni wheels (e.g. R. Rojas, A. Gloye Förster, Holonomic control of a robot with an
 // omnidirectional drive, KI 20, 2006): wheel i at azimuth αi turns at
 //   ωi = (−sin αi · vx + cos αi · vy + distance · ω) / radius
-// or, for all wheels, rates = rates_by_twist · (vx, vy, ω).
+double wheel_rate(const OmniWheels& wheels, double azimuth, const Twist2& twist);
+
+// For all wheels: rates = rates_by_twist · (vx, vy, ω).
 Eigen::MatrixX3d rates_by_twist(const OmniWheels& wheels);
 
 Eigen::VectorXd wheel_rates(const OmniWheels& wheels, const Twist2& twist);
