@@ -124,7 +124,8 @@ std::optional<Cone> fit_cone(const std::vector<Eigen::Vector3f>& outline, double
       const Vector3d axis = m / length;
       const Eigen::Matrix3d axis_by_m = (Eigen::Matrix3d::Identity() - axis * axis.transpose()) / length;
       const double variance = 2.0 * sum_of_squares / (used - 3);
-      return Cone{axis, axis_by_m * (variance * solver.solve(Eigen::Matrix3d::Identity())) * axis_by_m.transpose()};
+      return Cone{axis, axis_by_m * (variance * solver.solve(Eigen::Matrix3d::Identity())) * axis_by_m.transpose(),
+                  std::acos(std::min(1.0, 1.0 / length))};
     }
     m = solver.solve(right_side);
     limit = limit_around();

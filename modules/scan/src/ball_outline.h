@@ -17,6 +17,7 @@ void collect_outline(const ImageView& image, const PolarMap& map, Rows rows, Ref
 struct Cone {
   Eigen::Vector3d axis;
   Eigen::Matrix3d axis_covariance;
+  double radius;  // half the opening angle, radians
 };
 
 // Fits r·m = 1 (refine.h), trimming what lies farther off than three times the median. `pixel` is the angle that a

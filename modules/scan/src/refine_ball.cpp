@@ -7,6 +7,7 @@
 #include "membership.h"
 #include "movis/core/angle.h"
 #include "movis/scan/refine.h"
+#include "silhouette.h"
 #include "spans.h"
 
 namespace movis::scan {
@@ -152,41 +153,60 @@ Moments collect_moments(const ImageView& image, const PolarMap& map, const Refin
   return moments;
 }
 
-// Direction and covariance from the cone's axis.
-void take_cone(const Cone& cone, Bearing& bearing) {
-  const double horizontal = cone.axis.head<2>().norm();
-  bearing.azimuth = std::atan2(cone.axis.y(), cone.axis.x());
-  bearing.elevation = std::atan2(cone.axis.z(), horizontal);
-  Eigen::Matrix<double, 2, 3> angles_by_axis;
-  angles_by_axis << -cone.axis.y() / (horizontal * horizontal), cone.axis.x() / (horizontal * horizontal), 0.0,
-      -cone.axis.z() * cone.axis.x() / horizontal, -cone.axis.z() * cone.axis.y() / horizontal, horizontal;
-  bearing.covariance += angles_by_axis * cone.axis_covariance * angles_by_axis.transpose();
-}
-
-// Direction, extent and covariance from the moments of the whole disc.
-void describe_disc(const Moments& moments, const RefineOptions& options, Bearing& bearing) {
+// The cone that the moments of the whole disc tell.
+BallCone cone_of(const Moments& moments, const RefineOptions& options) {
   const Vector3d direction = moments.sum.normalized();
-  bearing.azimuth = std::atan2(direction.y(), direction.x());
-  bearing.elevation = std::asin(direction.z());
-  bearing.weight = moments.weight;
-
-  // A disc of angular radius γ covers 2π (1 − cos γ); its tangents differ from its centre by asin(sin γ / cos e).
-  const double radius = std::acos(std::max(-1.0, 1.0 - moments.covered / (2.0 * kPi)));
-  const double cos_elevation = std::sqrt(1.0 - direction.z() * direction.z());
-  const double half_width = std::asin(std::min(1.0, std::sin(std::min(radius, kPi / 2.0)) / cos_elevation));
-  bearing.left = wrap_angle(bearing.azimuth + half_width);
-  bearing.right = wrap_angle(bearing.azimuth - half_width);
-
+  BallCone cone;
+  cone.azimuth = std::atan2(direction.y(), direction.x());
+  cone.elevation = std::asin(direction.z());
+  // A disc of angular radius γ covers 2π (1 − cos γ).
+  cone.radius = std::acos(std::max(-1.0, 1.0 - moments.covered / (2.0 * kPi)));
   // Each border pixel places the outline to pixel_sigma; there are about 2π γ / pixel of them.
   const double pixel = std::sqrt(moments.covered / moments.weight);
-  const double border_pixels = std::max(4.0, 2.0 * kPi * radius / pixel);
+  const double border_pixels = std::max(4.0, 2.0 * kPi * cone.radius / pixel);
   const double variance = options.pixel_sigma * options.pixel_sigma * pixel * pixel / border_pixels;
-  const double azimuth_floor = radians(options.azimuth_floor_deg);
-  const double elevation_floor = radians(options.elevation_floor_deg);
-  bearing.covariance = Eigen::Vector2d(variance / (cos_elevation * cos_elevation) + azimuth_floor * azimuth_floor,
-                                       variance + elevation_floor * elevation_floor)
-                           .asDiagonal();
-  bearing.left_variance = bearing.right_variance = 4.0 * bearing.covariance(0, 0);
+  const double horizontal2 = std::max(1e-6, 1.0 - direction.z() * direction.z());
+  cone.covariance.diagonal() << variance / horizontal2, variance, variance;
+  return cone;
+}
+
+// The cone that the visible part of the outline tells, where the moments are those of a part of the disc.
+void take_axis(const Cone& fitted, BallCone& cone) {
+  const double horizontal = fitted.axis.head<2>().norm();
+  cone.azimuth = std::atan2(fitted.axis.y(), fitted.axis.x());
+  cone.elevation = std::atan2(fitted.axis.z(), horizontal);
+  cone.radius = fitted.radius;
+  Eigen::Matrix<double, 2, 3> angles_by_axis;
+  angles_by_axis << -fitted.axis.y() / (horizontal * horizontal), fitted.axis.x() / (horizontal * horizontal), 0.0,
+      -fitted.axis.z() * fitted.axis.x() / horizontal, -fitted.axis.z() * fitted.axis.y() / horizontal, horizontal;
+  cone.covariance.topLeftCorner<2, 2>() += angles_by_axis * fitted.axis_covariance * angles_by_axis.transpose();
+}
+
+// What lies within reach of the spans.
+Box box_around(const std::vector<Span>& spans, Rows rows, int reach, const PolarMap& map) {
+  Box box{map.width, 0, std::max(0, rows.begin - reach), std::min(map.height, rows.end + reach)};
+  for (int v = rows.begin; v < rows.end; ++v) {
+    if (spans[v].begin >= spans[v].end) continue;
+    box.u_begin = std::min(box.u_begin, std::max(0, spans[v].begin - reach));
+    box.u_end = std::max(box.u_end, std::min(map.width, spans[v].end + reach));
+  }
+  return box;
+}
+
+void take_cone(const BallCone& cone, const RefineOptions& options, Bearing& bearing) {
+  bearing.azimuth = wrap_angle(cone.azimuth);
+  bearing.elevation = cone.elevation;
+  const Eigen::Vector3d floors = Eigen::Vector3d(
+      radians(options.azimuth_floor_deg), radians(options.elevation_floor_deg), radians(options.radius_floor_deg));
+  const Eigen::Matrix3d covariance = cone.covariance + Eigen::Matrix3d(floors.cwiseAbs2().asDiagonal());
+  bearing.covariance = covariance.topLeftCorner<2, 2>();
+
+  // A cone's tangents in azimuth differ from its axis by asin(sin γ / cos e).
+  const double cosine = std::cos(cone.elevation);
+  const double half_width = std::asin(std::min(1.0, std::sin(std::min(cone.radius, kPi / 2.0)) / cosine));
+  bearing.left = wrap_angle(cone.azimuth + half_width);
+  bearing.right = wrap_angle(cone.azimuth - half_width);
+  bearing.left_variance = bearing.right_variance = covariance(0, 0) + covariance(2, 2) / (cosine * cosine);
 }
 
 }  // namespace
@@ -198,6 +218,7 @@ RefineScratch::RefineScratch(int image_width, int image_height) : spans(image_he
   memberships.reserve(pixels);
   samples.reserve(kSamples);
   outline.reserve(kSamples);
+  border.reserve(static_cast<std::size_t>(24) * (image_width + image_height));  // a band as wide around the picture
 }
 
 bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<ObjectPixel>& object,
@@ -214,7 +235,8 @@ bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<
   const Moments moments = collect_moments(image, map, scratch, rows);
   if (!(moments.weight > 0.0) || !(moments.sum.norm() > 0.0)) return false;
 
-  describe_disc(moments, options, bearing);
+  BallCone cone = cone_of(moments, options);
+  bearing.weight = moments.weight;
   if (moments.beyond) bearing.flags |= kCutByDomain;
   constexpr int kTouchesBlack = 8;     // of the pixels around it, one in
   constexpr double kLargeDisc = 1200;  // pixels: highlights shift its moments more than noise its outline
@@ -223,7 +245,16 @@ bool refine_ball(const ImageView& image, const PolarMap& map, const std::vector<
   if (cut || moments.beyond || moments.weight > kLargeDisc) {
     collect_outline(image, map, rows, scratch);
     const double pixel = std::sqrt(moments.covered / moments.weight);
-    if (const auto cone = fit_cone(scratch.outline, pixel, scratch.values)) take_cone(*cone, bearing);
+    if (const auto fitted = fit_cone(scratch.outline, pixel, scratch.values)) take_axis(*fitted, cone);
+  }
+  constexpr int kReach = 4;  // pixels beyond the mixed ones: the surroundings
+  const Box box = box_around(scratch.widened, rows, kReach, map);
+  const std::optional<BallCone> silhouette = fit_silhouette(image, map, box, cone, scratch);
+  take_cone(silhouette ? *silhouette : cone, options, bearing);
+  if (silhouette) {
+    bearing.radius = silhouette->radius;
+    bearing.radius_variance = silhouette->covariance(2, 2) + std::pow(radians(options.radius_floor_deg), 2);
+    bearing.radius_covariance = silhouette->covariance.topRightCorner<2, 1>();
   }
   return true;
 }

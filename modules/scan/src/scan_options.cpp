@@ -15,8 +15,8 @@ ThresholdOptions read_threshold_options(const YamlMap& map) {
 }  // namespace
 
 RefineOptions read_refine_options(const YamlMap& map) {
-  map.allow(
-      {"dark", "border_px", "edge_window_deg", "edge_band", "pixel_sigma", "azimuth_floor_deg", "elevation_floor_deg"});
+  map.allow({"dark", "border_px", "edge_window_deg", "edge_band", "pixel_sigma", "azimuth_floor_deg",
+             "elevation_floor_deg", "radius_floor_deg"});
   RefineOptions options;
   map.read_number("dark", {0.001, 1.0}, options.dark);
   map.read_integer("border_px", {1.0, 10.0}, options.border_px);
@@ -25,6 +25,7 @@ RefineOptions read_refine_options(const YamlMap& map) {
   map.read_number("pixel_sigma", {0.01, 10.0}, options.pixel_sigma);
   map.read_number("azimuth_floor_deg", {0.0, 10.0}, options.azimuth_floor_deg);
   map.read_number("elevation_floor_deg", {0.0, 10.0}, options.elevation_floor_deg);
+  map.read_number("radius_floor_deg", {0.0, 10.0}, options.radius_floor_deg);
   return options;
 }
 

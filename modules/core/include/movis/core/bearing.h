@@ -29,6 +29,12 @@ struct Bearing {
   double elevation = 0.0;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of (azimuth, elevation), rad²
 
+  // A ball is seen under a circular cone: half its opening angle, radians, with its variance and its covariance with
+  // (azimuth, elevation), rad². 0: not measured.
+  double radius = 0.0;
+  double radius_variance = 0.0;
+  Eigen::Vector2d radius_covariance = Eigen::Vector2d::Zero();
+
   // The object's azimuthal extent; left is the larger azimuth, as the camera looks at it.
   double left = 0.0;
   double right = 0.0;

@@ -25,6 +25,8 @@ namespace movis::scan {
 //   of its centre in any central camera, near or far, tilted or not:  direction ∝ Σ w Ω r.
 //   Where the own robot or another sensor unit hides a part, the visible rest of the outline is fitted instead: rays on
 //   a cone around n with half angle γ satisfy r·m = 1 with m = n/cos γ, linear least squares in m, outliers trimmed.
+//   From there the cone is fitted to the light of the pixels on the border (src/silhouette.h), which tells direction,
+//   angular radius and their covariance. Where the ball is too small for that, the first direction stands.
 // Goal: an upright edge at azimuth φ_e is where the memberships add up to those of a step seen through a pixel:
 //   Σ w_i = Σ S((φ_e − φ_i)/δ_i),  S(x) = clamp(x + 1/2, 0, 1), over a window around the edge within the goal's height;
 //   δ is the azimuth that a pixel covers. Solved by Newton's method. Where it has no
@@ -38,7 +40,8 @@ struct RefineOptions {
   double edge_band = 0.5;            // the central part of the goal's height in which its edges are sought
   double pixel_sigma = 0.15;         // noise of one border pixel's position, in pixels: see the bearings' covariance
   double azimuth_floor_deg = 0.004;  // what no number of pixels takes away: aliasing, the model
-  double elevation_floor_deg = 0.02;
+  double elevation_floor_deg = 0.01;
+  double radius_floor_deg = 0.01;  // of a ball's angular radius
 };
 
 RefineOptions read_refine_options(const YamlMap& map);
@@ -58,6 +61,12 @@ struct RefineScratch {
   std::vector<Span> spans, widened;  // by image row
   std::vector<float> values, memberships;
   std::vector<Sample> samples;
+  struct BorderSample {
+    Eigen::Vector3d ray, light;  // linear red, green, blue
+    double gradient;             // change of the ray's cosine to the ball's centre over one pixel
+    int sector;                  // of the outline
+  };
+  std::vector<BorderSample> border;
   std::vector<Eigen::Vector3f> outline;  // unit rays
 
   RefineScratch(int image_width, int image_height);
