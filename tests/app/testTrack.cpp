@@ -109,6 +109,18 @@ TEST_F(Track, EveryLocalizer) {
   }
 }
 
+TEST_F(Track, EveryTriangulation) {
+  std::string rows[2];
+  for (const int i : {0, 1}) {
+    ASSERT_EQ(track(std::string("--triangulation ") + (i == 0 ? "pairs" : "joint")).exit_code, 0);
+    rows[i] = read_text(out_);
+    const CsvTable table = CsvTable::read(out_);
+    EXPECT_EQ(table.text(0, table.column("ball_status")), "ok");
+  }
+  EXPECT_NE(rows[0], rows[1]);
+  EXPECT_EQ(track("--triangulation triples").exit_code, 2);
+}
+
 TEST_F(Track, CutOffPng) {
   truncate("images/000004_M2.png");
   expect_failure({"frames.csv:3", "'M2'", "000004_M2.png", "cut off"});

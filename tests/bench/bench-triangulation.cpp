@@ -1,6 +1,6 @@
-// One ball from the bearings of three cameras, with covariance, against the usual two-view triangulation of one pair:
-// OpenCV's triangulatePoints and the same linear method (DLT) with Eigen's SVD. The peers get two views of the same
-// ball in virtual perspective cameras that look along the robot's y; they give no covariance.
+// One ball from the bearings of three cameras, by pairs and jointly, with covariance, against the usual two-view
+// triangulation of one pair: OpenCV's triangulatePoints and the same linear method (DLT) with Eigen's SVD. The peers
+// get two views of the same ball in virtual perspective cameras that look along the robot's y; they give no covariance.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +11,7 @@
 
 #include "movis/core/angle.h"
 #include "movis/core/paths.h"
+#include "movis/triangulation/joint.h"
 #include "movis/triangulation/pairs.h"
 #include "ratio_table.h"
 
@@ -69,6 +70,26 @@ void triangulate_pairs(benchmark::State& state) {
 }
 BENCHMARK(triangulate_pairs)->Unit(benchmark::kMicrosecond);
 
+void triangulate_joint(benchmark::State& state) {
+  const Scene scene;
+  require_ball(triangulation::triangulate_joint(scene.rig, scene.bearings, ObjectClass::ball).point);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(triangulation::triangulate_joint(scene.rig, scene.bearings, ObjectClass::ball));
+  }
+}
+BENCHMARK(triangulate_joint)->Unit(benchmark::kMicrosecond);
+
+// Three cameras of which one sees another ball: what is read where they do not agree.
+void triangulate_joint_outlier(benchmark::State& state) {
+  Scene scene;
+  scene.bearings[2].azimuth += radians(10.0);
+  require_ball(triangulation::triangulate_joint(scene.rig, scene.bearings, ObjectClass::ball).point);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(triangulation::triangulate_joint(scene.rig, scene.bearings, ObjectClass::ball));
+  }
+}
+BENCHMARK(triangulate_joint_outlier)->Unit(benchmark::kMicrosecond);
+
 void opencv_triangulate_points(benchmark::State& state) {
   const Scene scene;
   cv::Mat projections[2];
@@ -112,6 +133,9 @@ BENCHMARK(eigen_svd)->Unit(benchmark::kMicrosecond);
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return movis::bench::run_and_compare(
-      argc, argv, {{"triangulate_pairs", "opencv_triangulate_points"}, {"triangulate_pairs", "eigen_svd"}});
+  return movis::bench::run_and_compare(argc, argv,
+                                       {{"triangulate_pairs", "opencv_triangulate_points"},
+                                        {"triangulate_pairs", "eigen_svd"},
+                                        {"triangulate_joint", "opencv_triangulate_points"},
+                                        {"triangulate_joint", "eigen_svd"}});
 }

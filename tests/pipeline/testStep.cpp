@@ -96,10 +96,10 @@ TEST(Options, ReadStrictly) {
   const test::TemporaryFolder folder;
   const auto read = [&](const char* text) { return pipeline::read_options(folder.write("options.yaml", text)); };
   const pipeline::Options options =
-      read("scan: {bins: 360, threshold: {minimum: 3}}\ntriangulation: {min_parallax_deg: 1}\n");
+      read("scan: {bins: 360, threshold: {minimum: 3}}\ntriangulation: {pairs: {min_parallax_deg: 1}}\n");
   EXPECT_EQ(options.scan.bins, 360);
   EXPECT_DOUBLE_EQ(options.scan.threshold.minimum, 3.0);
-  EXPECT_DOUBLE_EQ(options.triangulation.min_parallax_deg, 1.0);
+  EXPECT_DOUBLE_EQ(options.triangulation.pairs.min_parallax_deg, 1.0);
   EXPECT_DOUBLE_EQ(options.scan.ball_gap_deg, scan::ScanOptions{}.ball_gap_deg);
   test::expect_error([&] { read("scan: {bin: 360}\n"); }, {"options.yaml:1", "'bin'", "did you mean 'bins'"});
   test::expect_error([&] { read("scan: {bins: 36}\n"); }, {"scan.bins", "out of range"});

@@ -3,10 +3,15 @@
 #include <exception>
 #include <string>
 
+#include "bound_command.h"
+#include "calibrate_command.h"
+#include "calibrate_correction.h"
 #include "demo_command.h"
+#include "experiment_command.h"
 #include "interrupt.h"
 #include "movis/core/version.h"
 #include "movis/localization/localizer.h"
+#include "movis/triangulation/triangulator.h"
 #include "track_command.h"
 
 namespace {
@@ -21,6 +26,12 @@ std::vector<std::string> localizer_names() {
   return names;
 }
 
+std::vector<std::string> triangulator_names() {
+  std::vector<std::string> names;
+  for (const auto name : movis::triangulation::triangulator_names()) names.emplace_back(name);
+  return names;
+}
+
 void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
   CLI::App* track = program.add_subcommand("track", "Measure ball and pose in every set of a data set");
   track->add_option("--data", arguments.data, "The data set: a folder with rig.yaml, frames.csv and images")
@@ -30,10 +41,11 @@ void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
   track->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
   track->add_option("--field", arguments.field, "Another field than the data set's field.yaml");
   track->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
+  track->add_option("--correction", arguments.correction, "Error correction: of movis calibrate correction");
   track->add_option("--options", arguments.options,
                     "Options of the stages: YAML with the maps scan, triangulation, world");
   track->add_option("--triangulation", arguments.triangulation, "How bearings become points")
-      ->check(CLI::IsMember({"pairs"}))
+      ->check(CLI::IsMember(triangulator_names()))
       ->capture_default_str();
   track->add_option("--localizer", arguments.localizer, "How goals become a pose")
       ->check(CLI::IsMember(localizer_names()))
@@ -64,6 +76,80 @@ void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
   demo->callback([&arguments] { movis::app::demo(arguments); });
 }
 
+void add_calibrate_correction(CLI::App& calibrate, movis::app::CalibrateCorrectionArguments& arguments) {
+  CLI::App* correction =
+      calibrate.add_subcommand("correction", "The error correction of the bearings, from balls at known places");
+  correction->add_option("--data", arguments.data, "The data set: balls near and far all around, with truth.csv")
+      ->required();
+  correction->add_option("--out", arguments.out, "The correction, a YAML file for movis track --correction")
+      ->required();
+  correction->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
+  correction->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
+  correction->add_option("--options", arguments.options, "Options of the scan: YAML, as for movis track");
+  correction->callback([&arguments] { movis::app::calibrate_correction(arguments); });
+}
+
+void add_calibrate_rig(CLI::App& calibrate, movis::app::CalibrateRigArguments& arguments) {
+  CLI::App* rig = calibrate.add_subcommand(
+      "rig", "The cameras' places and lenses, from balls at known places, or from goals and balls at unknown ones");
+  rig->add_option("--data", arguments.data, "The data set: balls near and far all around; known places in truth.csv")
+      ->required();
+  rig->add_option("--out", arguments.out, "The calibrated rig.yaml")->required();
+  rig->add_option("--rig", arguments.rig, "The nominal rig; default: the data set's rig.yaml");
+  rig->add_flag("--self", arguments.self, "Use no known places even where there is a truth.csv");
+  rig->add_option("--field", arguments.field, "For --self: another field than the data set's field.yaml");
+  rig->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
+  rig->add_option("--options", arguments.options, "YAML with the maps scan, calibration");
+  rig->callback([&arguments] { movis::app::calibrate_rig(arguments); });
+}
+
+void add_calibrate(CLI::App& program, movis::app::CalibrateRigArguments& rig,
+                   movis::app::CalibrateCorrectionArguments& correction) {
+  CLI::App* calibrate = program.add_subcommand("calibrate", "Tell a rig's individual differences from a data set");
+  calibrate->require_subcommand(1);
+  add_calibrate_rig(*calibrate, rig);
+  add_calibrate_correction(*calibrate, correction);
+}
+
+void add_bound(CLI::App& program, movis::app::BoundArguments& arguments) {
+  movis::triangulation::BoundMapOptions& options = arguments.options;
+  CLI::App* bound = program.add_subcommand("bound", "Map how well a rig can measure a ball at best (Cramér–Rao)");
+  bound->add_option("--rig", arguments.rig, "The cameras: a rig.yaml")->required();
+  bound->add_option("--out", arguments.out, "The map, a CSV file")->required();
+  bound->add_option("--page", arguments.page, "An HTML page with maps");
+  const auto add = [&](const char* name, double& target, double least, double most, const char* text) {
+    bound->add_option(name, target, text)->check(CLI::Range(least, most))->capture_default_str();
+  };
+  add("--contrast", options.picture.contrast, 0.001, 450.0,
+      "Between ball and surroundings, grey levels; root of the sum of squares over three channels");
+  add("--noise", options.picture.noise, 0.001, 255.0, "Sigma of one channel of one pixel, grey levels");
+  add("--blur", options.picture.blur_px, 0.0, 100.0, "Sigma of the lens's blur, pixels");
+  add("--half-width", options.half_width, 0.01, 100.0, "Of the square floor around the robot, metres");
+  add("--step", options.step, 0.001, 100.0, "Between the map's places, metres");
+  add("--ball-radius", options.ball_radius, 0.001, 10.0, "Metres");
+  bound->add_option("--height", arguments.height, "Of the ball's centre, metres; default: it lies on the floor");
+  add("--floor-sigma", options.floor_sigma, 0.0, 10.0, "How well that height is known where it is, metres; 0: exactly");
+  bound->add_flag("--diameter", options.diameter, "The ball's apparent size tells its distance too");
+  bound->add_flag("--free", arguments.free, "Table and page begin with a height that is not known");
+  bound->callback([&arguments] { movis::app::bound(arguments); });
+}
+
+void add_experiment(CLI::App& program, movis::app::ExperimentArguments& arguments) {
+  CLI::App* experiment = program.add_subcommand("experiment", "Run an experiment; its rows, summary and page");
+  experiment->add_option("experiment", arguments.experiment, "A name in data/experiments, or a YAML file")->required();
+  experiment->add_option("--out", arguments.out, "The folder of the results; default: movis-NAME");
+  experiment->add_option("--seed", arguments.seed, "Of all that is drawn at random")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
+      ->capture_default_str();
+  experiment->add_option("--jobs", arguments.jobs, "Threads; default: as many as there are cores")
+      ->check(CLI::Range(1, 1024));
+  experiment->add_flag("--quick", arguments.quick, "A small version, in seconds");
+  experiment->add_flag("--resume", arguments.resume, "Go on with the rows that the folder holds");
+  experiment->add_option("--replay", arguments.replay, "Recompute this row alone and print it beside the stored one")
+      ->check(CLI::NonNegativeNumber);
+  experiment->callback([&arguments] { movis::app::experiment(arguments); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,6 +161,13 @@ int main(int argc, char** argv) {
   add_demo(program, demo_arguments);
   movis::app::TrackArguments track_arguments;
   add_track(program, track_arguments);
+  movis::app::CalibrateRigArguments rig_arguments;
+  movis::app::CalibrateCorrectionArguments correction_arguments;
+  add_calibrate(program, rig_arguments, correction_arguments);
+  movis::app::BoundArguments bound_arguments;
+  add_bound(program, bound_arguments);
+  movis::app::ExperimentArguments experiment_arguments;
+  add_experiment(program, experiment_arguments);
   try {
     program.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

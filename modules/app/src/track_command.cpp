@@ -35,14 +35,17 @@ pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Da
       scan::read_colours(arguments.colours ? *arguments.colours : data_file("colours/default.yaml"));
   const pipeline::Options options =
       arguments.options ? pipeline::read_options(*arguments.options) : pipeline::Options{};
-  return {dataset.rig, field, colours, options, localization::find_localizer(arguments.localizer)};
+  pipeline::Pipeline pipeline(dataset.rig, field, colours, options, localization::find_localizer(arguments.localizer),
+                              triangulation::find_triangulator(arguments.triangulation));
+  if (arguments.correction) pipeline.correction = triangulation::read_correction(*arguments.correction, dataset.rig);
+  return pipeline;
 }
 
 // The recording is worth more than the estimates.
 void refuse_to_overwrite_input(const TrackArguments& arguments, const grab::Dataset& dataset) {
   std::vector<fs::path> inputs{dataset.rig_file, dataset.folder / "frames.csv", dataset.folder / "truth.csv",
                                dataset.folder / "field.yaml"};
-  for (const auto& file : {arguments.field, arguments.colours, arguments.options}) {
+  for (const auto& file : {arguments.field, arguments.colours, arguments.correction, arguments.options}) {
     if (file) inputs.push_back(*file);
   }
   for (const omni::Camera& camera : dataset.rig.cameras) inputs.push_back(camera.mask);
@@ -114,8 +117,8 @@ void track(const TrackArguments& arguments) {
     if (frames) frames->add(pipeline, images, true_state);
   }
   if (frames) {
-    const std::string command =
-        fmt::format("movis track --data {} --localizer {}", arguments.data.string(), arguments.localizer);
+    const std::string command = fmt::format("movis track --data {} --triangulation {} --localizer {}",
+                                            arguments.data.string(), arguments.triangulation, arguments.localizer);
     report::write_track_page({"MOVIS: what the cameras saw and what was measured", frames->take(),
                               std::string("movis ") + version(), command},
                              *arguments.page);

@@ -4,14 +4,16 @@
 #include <optional>
 #include <string>
 
+#include "movis/triangulation/triangulator.h"
+
 namespace movis::app {
 
 struct TrackArguments {
   std::filesystem::path data;
   std::filesystem::path out;
   std::optional<std::filesystem::path> page;
-  std::optional<std::filesystem::path> rig, field, colours, options;
-  std::string triangulation = "pairs";
+  std::optional<std::filesystem::path> rig, field, colours, correction, options;
+  std::string triangulation{triangulation::kDefaultTriangulator};
   std::string localizer = "composed";
 };
 

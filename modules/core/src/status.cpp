@@ -17,6 +17,8 @@ const char* word(PointStatus status) {
       return "parallel_rays";
     case PointStatus::behind_camera:
       return "behind_camera";
+    case PointStatus::contradiction:
+      return "contradiction";
   }
   return "?";
 }

@@ -19,7 +19,8 @@ localization::Localizer localizer_of(const std::string& name) {
 
 pipeline::Player make_player(const sim::Scenario& scenario, const MatchOptions& options) {
   pipeline::Pipeline vision(scenario.rig, scenario.arena.field, scan::read_colours(data_file("colours/default.yaml")),
-                            options.pipeline, localizer_of(options.localizer));
+                            options.pipeline, localizer_of(options.localizer),
+                            triangulation::find_triangulator(options.triangulation));
   return {std::move(vision), scenario.robot};
 }
 

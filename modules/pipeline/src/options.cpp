@@ -7,7 +7,7 @@ Options read_options(const std::filesystem::path& file) {
   map.allow({"scan", "triangulation", "world"});
   Options options;
   if (map.has("scan")) options.scan = scan::read_scan_options(map.map("scan"));
-  if (map.has("triangulation")) options.triangulation = triangulation::read_pairs_options(map.map("triangulation"));
+  if (map.has("triangulation")) options.triangulation = triangulation::read_options(map.map("triangulation"));
   if (map.has("world")) options.world = world::read_world_options(map.map("world"));
   return options;
 }

@@ -20,29 +20,17 @@ void scan_images(Pipeline& pipeline, const grab::FrameSet& images) {
   }
 }
 
-// Two cameras above each other, or in one place, have no parallax in azimuth.
-void require_baseline(const omni::Rig& rig) {
-  constexpr double kShortest = 0.01;  // metres
-  for (const omni::Camera& one : rig.cameras) {
-    for (const omni::Camera& two : rig.cameras) {
-      if ((one.position - two.position).head<2>().norm() >= kShortest) return;
-    }
-  }
-  throw Error(
-      "triangulation needs two cameras that stand at least {} m apart on the floor plane; check `position` of "
-      "the rig's cameras",
-      kShortest);
-}
-
 }  // namespace
 
 Pipeline::Pipeline(omni::Rig rig_used, std::optional<Field> field_used, const scan::Colours& colours,
-                   const Options& options_used, localization::Localizer localizer_used)
-    : rig(std::move(rig_used)), field(field_used), options(options_used), localizer(localizer_used) {
-  if (rig.cameras.size() < 2) {
-    throw Error("triangulation needs a rig of two or more cameras; this one has {}", rig.cameras.size());
-  }
-  require_baseline(rig);
+                   const Options& options_used, localization::Localizer localizer_used,
+                   const triangulation::Triangulator& triangulator_used)
+    : rig(std::move(rig_used)),
+      field(field_used),
+      options(options_used),
+      localizer(localizer_used),
+      triangulator(triangulator_used) {
+  triangulator.require(rig);
   if (localizer == nullptr) throw Error("the pipeline needs a localizer; there is none of that name");
   if (field && field->goals == Field::Goals::white) {
     throw Error("the field's goals are white; the localizers need a yellow and a blue one");
@@ -60,16 +48,17 @@ const Estimate& step(Pipeline& pipeline, const grab::FrameSet& images) {
   }
   const auto start = Clock::now();
   const auto& rig = pipeline.rig;
-  const auto& pairs = pipeline.options.triangulation;
+  const auto& triangulator = pipeline.triangulator;
+  const auto& options = pipeline.options.triangulation;
   Estimate& estimate = pipeline.estimate;
   estimate.index = images.index;
   estimate.time_s = images.time_s;
 
   scan_images(pipeline, images);
-  estimate.ball_in_robot = triangulation::triangulate_pairs(rig, estimate.bearings, ObjectClass::ball, pairs);
-  estimate.goals.yellow =
-      triangulation::triangulate_goal_pairs(rig, estimate.bearings, ObjectClass::yellow_goal, pairs);
-  estimate.goals.blue = triangulation::triangulate_goal_pairs(rig, estimate.bearings, ObjectClass::blue_goal, pairs);
+  triangulation::correct(pipeline.correction, estimate.bearings);
+  estimate.ball_in_robot = triangulator.ball(rig, estimate.bearings, options);
+  estimate.goals.yellow = triangulator.goal(rig, estimate.bearings, ObjectClass::yellow_goal, options);
+  estimate.goals.blue = triangulator.goal(rig, estimate.bearings, ObjectClass::blue_goal, options);
   estimate.fix = pipeline.field ? pipeline.localizer(estimate.goals, *pipeline.field) : Fix{};
 
   estimate.tick_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();

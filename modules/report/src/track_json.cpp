@@ -78,6 +78,8 @@ const char* explanation(PointStatus status) {
       return "the rays do not intersect within the range that is measured";
     case PointStatus::behind_camera:
       return "the rays meet behind a camera, so they are not of one point";
+    case PointStatus::contradiction:
+      return "the bearings are not of one point, and nothing tells which of them is wrong";
   }
   return "";
 }

@@ -16,6 +16,7 @@ enum class PointStatus : std::uint8_t {
   one_camera,     // one bearing gives a direction, no distance
   parallel_rays,  // the rays do not intersect within the range that is measured
   behind_camera,  // the lines intersect, but behind a camera: the bearings are not of one point
+  contradiction,  // the bearings are not of one point, and nothing tells which of them is wrong
 };
 
 // What became of a fix of the robot's pose.
@@ -39,6 +40,7 @@ struct PointEstimate {
   PointStatus status = PointStatus::not_seen;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();       // metres
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m²
+  bool on_floor = false;  // that it lies on the floor is part of the measurement; else its height was measured
 };
 
 // The robot's pose, of one instant. With a status other than ok, pose and covariance mean nothing.

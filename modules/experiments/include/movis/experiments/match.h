@@ -14,6 +14,7 @@ namespace movis::experiments {
 
 struct MatchOptions {
   std::string localizer = "composed";
+  std::string triangulation{triangulation::kDefaultTriangulator};
   pipeline::Options pipeline;
   std::function<void()> every_tick;  // called in every tick, if given; may throw to end the episode
 };

@@ -40,4 +40,9 @@ std::optional<Eigen::Vector3d> unproject(const Camera& camera, const Eigen::Vect
 // Paths of masks are relative to the file.
 Rig read_rig(const std::filesystem::path& file);
 
+// Writes a rig.yaml that read_rig reads back: every number exactly, but for angles that no number of degrees gives to
+// the last bit. A mask below the file's folder is written relative to it, another with its full path. `comments` head
+// the file, one line each.
+void write_rig(const Rig& rig, const std::filesystem::path& file, const std::vector<std::string>& comments = {});
+
 }  // namespace movis::omni

@@ -12,8 +12,9 @@
 #include "movis/localization/localizer.h"
 #include "movis/omni/rig.h"
 #include "movis/scan/scanner.h"
+#include "movis/triangulation/correction.h"
 #include "movis/triangulation/goal_points.h"
-#include "movis/triangulation/pairs.h"
+#include "movis/triangulation/triangulator.h"
 #include "movis/world/world.h"
 
 // The one data path:  images → scan → bearings → triangulation → points in the robot frame → localization → fix.
@@ -21,7 +22,7 @@ namespace movis::pipeline {
 
 struct Options {
   scan::ScanOptions scan;
-  triangulation::PairsOptions triangulation;
+  triangulation::Options triangulation;
   world::WorldOptions world;
 };
 
@@ -40,15 +41,19 @@ struct Estimate {
   double tick_us = 0.0;  // from the first pixel to the fix
 };
 
-// Everything that step() needs, made once. Changing the localizer is changing one function pointer.
+// Everything that step() needs, made once. Changing the localizer or the triangulator is changing function pointers.
 struct Pipeline {
   Pipeline(omni::Rig rig, std::optional<Field> field, const scan::Colours& colours, const Options& options,
-           localization::Localizer localizer);
+           localization::Localizer localizer,
+           const triangulation::Triangulator& triangulator =
+               triangulation::find_triangulator(triangulation::kDefaultTriangulator));
 
   omni::Rig rig;
   std::optional<Field> field;  // without one no pose is sought
   Options options;
   localization::Localizer localizer;
+  triangulation::Triangulator triangulator;
+  triangulation::Correction correction;  // of the bearings that the scan finds; without cameras: none
   std::vector<scan::Scanner> scanners;  // one a camera
   Estimate estimate;                    // of the last step
 };

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "movis/experiments/measurement.h"
+#include "movis/experiments/statistics.h"
+
+namespace movis::experiments {
+
+// Of magnitudes of errors; NaN where there are none.
+struct ErrorStatistics {
+  double mean = 0.0;
+  Interval mean_interval;  // 95 %, bootstrap over draws: points of one draw share its cameras
+  double median = 0.0;
+  double rms = 0.0;
+  double percentile95 = 0.0;
+  double largest = 0.0;
+};
+
+// Mean magnitudes over the lattice.
+struct MeanBound {
+  double distance = 0.0;   // metres
+  double direction = 0.0;  // radians
+};
+
+// One system with one knowledge of its rig, over all draws and points.
+struct MeasurementCell {
+  Level level = Level::bearings;
+  Differences differences = Differences::all;
+  int system = 0;
+  Knowledge knowledge = Knowledge::nominal;
+  int asked = 0;
+  int measured = 0;
+  ErrorStatistics distance;   // metres
+  ErrorStatistics direction;  // radians
+  // Mean magnitude that no unbiased estimator betters with this rig exactly known, on level `bearings`: by azimuths and
+  // elevations alone, which a single camera cannot, and with the diameter and the floor too. NaN: there is none.
+  MeanBound free_bound, bound;
+  std::vector<double> distance_by_point;  // mean magnitude over draws, NaN: never measured
+  std::vector<double> direction_by_point;
+  std::vector<double> first_distance;  // signed, of the first draw, NaN: not measured
+  std::vector<double> first_direction;
+};
+
+// How much larger one system's mean distance error is than another's, over the draws that both have.
+struct MeasurementRatio {
+  double ratio = 0.0;
+  Interval interval;  // 95 %, bootstrap over draws, paired
+};
+
+// Sentences that follow from the numbers.
+struct Finding {
+  std::string topic;
+  std::vector<std::string> sentences;
+};
+
+struct MeasurementSummary {
+  MeasurementSettings settings;
+  std::uint64_t seed = 0;
+  Lattice lattice;
+  std::vector<MeasurementCell> cells;
+  std::vector<Finding> findings;
+
+  const MeasurementCell* find(Level level, Differences differences, const char* system, Knowledge knowledge) const;
+};
+
+int system_index(const char* name);
+
+MeasurementRatio ratio_of(const std::vector<MeasurementRow>& rows, Level level, const char* one,
+                          Knowledge one_knowledge, const char* other, Knowledge other_knowledge);
+
+MeasurementSummary summarize_measurement(const MeasurementSettings& settings, std::uint64_t seed,
+                                         const std::vector<MeasurementRow>& rows);
+
+std::string table_of(const MeasurementSummary& summary);
+
+void write_summary(const MeasurementSummary& summary, const std::filesystem::path& file);  // JSON
+
+void write_page(const MeasurementSummary& summary, const std::string& command, const std::filesystem::path& file);
+
+}  // namespace movis::experiments

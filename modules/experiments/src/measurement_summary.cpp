@@ -1,0 +1,252 @@
+#include "movis/experiments/measurement_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "bench.h"
+#include "findings.h"
+#include "movis/core/random.h"
+#include "movis/sim/scene.h"
+
+namespace movis::experiments {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int kResamples = 2000;
+constexpr std::uint64_t kBootstrap = 1;  // seed: the same interval for the same rows
+
+struct Sum {
+  double sum = 0.0;
+  int count = 0;
+
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  void add(const Sum& other) {
+    sum += other.sum;
+    count += other.count;
+  }
+  double mean() const { return count > 0 ? sum / count : kUnknown; }
+};
+
+Interval middle95(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
+  if (values.empty()) return {kUnknown, kUnknown};
+  std::sort(values.begin(), values.end());
+  const std::size_t cut = values.size() / 40;
+  return {values[cut], values[values.size() - 1 - cut]};
+}
+
+// Resamples draws, with all their points: B. Efron, R. Tibshirani, An introduction to the bootstrap, 1993, chapter 8.
+template <typename Statistic>
+Interval bootstrap(std::size_t draws, Statistic statistic) {
+  if (draws < 2) return {kUnknown, kUnknown};
+  RandomStream random = make_stream(kBootstrap, 0);
+  std::uniform_int_distribution<std::size_t> pick(0, draws - 1);
+  std::vector<double> values;
+  std::vector<std::size_t> picked(draws);
+  for (int i = 0; i < kResamples; ++i) {
+    for (std::size_t& draw : picked) draw = pick(random);
+    values.push_back(statistic(picked));
+  }
+  return middle95(std::move(values));
+}
+
+ErrorStatistics statistics_of(std::vector<double> magnitudes, const std::vector<Sum>& by_draw) {
+  ErrorStatistics result{kUnknown, {kUnknown, kUnknown}, kUnknown, kUnknown, kUnknown, kUnknown};
+  if (magnitudes.empty()) return result;
+  std::sort(magnitudes.begin(), magnitudes.end());
+  const std::size_t n = magnitudes.size();
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double magnitude : magnitudes) {
+    sum += magnitude;
+    squares += magnitude * magnitude;
+  }
+  result.mean = sum / static_cast<double>(n);
+  result.rms = std::sqrt(squares / static_cast<double>(n));
+  result.median = n % 2 == 1 ? magnitudes[n / 2] : 0.5 * (magnitudes[n / 2 - 1] + magnitudes[n / 2]);
+  result.percentile95 = magnitudes[static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(n))) - 1];
+  result.largest = magnitudes.back();
+  result.mean_interval = bootstrap(by_draw.size(), [&](const std::vector<std::size_t>& picked) {
+    Sum resampled;
+    for (const std::size_t draw : picked) resampled.add(by_draw[draw]);
+    return resampled.mean();
+  });
+  return result;
+}
+
+std::vector<Sum> sums_by_draw(const std::vector<const MeasurementRow*>& rows, double MeasurementRow::*error) {
+  std::map<int, Sum> sums;
+  for (const MeasurementRow* row : rows) {
+    Sum& sum = sums[row->draw];
+    if (row->status == "ok") sum.add(std::abs(row->*error));
+  }
+  std::vector<Sum> result;
+  for (const auto& [draw, sum] : sums) result.push_back(sum);
+  return result;
+}
+
+std::vector<double> magnitudes_of(const std::vector<const MeasurementRow*>& rows, double MeasurementRow::*error) {
+  std::vector<double> magnitudes;
+  for (const MeasurementRow* row : rows) {
+    if (row->status == "ok") magnitudes.push_back(std::abs(row->*error));
+  }
+  return magnitudes;
+}
+
+std::vector<double> means_by_point(const std::vector<const MeasurementRow*>& rows, double MeasurementRow::*error,
+                                   std::size_t points) {
+  std::vector<Sum> sums(points);
+  for (const MeasurementRow* row : rows) {
+    if (row->status == "ok") sums.at(static_cast<std::size_t>(row->point)).add(std::abs(row->*error));
+  }
+  std::vector<double> means;
+  for (const Sum& sum : sums) means.push_back(sum.mean());
+  return means;
+}
+
+std::vector<double> first_draw(const std::vector<const MeasurementRow*>& rows, double MeasurementRow::*error,
+                               std::size_t points) {
+  std::vector<double> values(points, kUnknown);
+  for (const MeasurementRow* row : rows) {
+    if (row->draw == 0 && row->status == "ok") values.at(static_cast<std::size_t>(row->point)) = row->*error;
+  }
+  return values;
+}
+
+std::vector<Bearing> bearing_bounds(const MeasurementSettings& settings, const omni::Rig& rig,
+                                    const Eigen::Vector3d& ball) {
+  std::vector<Bearing> bearings;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const Eigen::Matrix3d covariance =
+        settings.detector_factor * settings.detector_factor *
+        triangulation::bearing_bound(rig.cameras[i], ball, sim::kBallRadius, settings.picture);
+    if (!covariance.allFinite()) continue;
+    Bearing bearing;
+    bearing.camera = static_cast<int>(i);
+    bearing.covariance = covariance.topLeftCorner<2, 2>();
+    bearing.radius_variance = covariance(2, 2);
+    bearing.radius_covariance = covariance.col(2).head<2>();
+    bearings.push_back(bearing);
+  }
+  return bearings;
+}
+
+// Of the rig as drawn. `everything`: with the diameter and the floor.
+MeanBound mean_bound(const MeasurementSettings& settings, const omni::Rig& rig, const Lattice& lattice,
+                     bool everything) {
+  const double mean_of_normal = std::sqrt(2.0 / kPi);  // E|x| of a normal variable of sigma 1
+  Sum distance, direction;
+  for (const Eigen::Vector2d& place : lattice.points) {
+    const Eigen::Vector3d ball(place.x(), place.y(), sim::kBallRadius);
+    std::vector<Bearing> bearings = bearing_bounds(settings, rig, ball);
+    if (!everything) {
+      for (Bearing& bearing : bearings) bearing.radius_variance = 0.0;
+    }
+    const Eigen::Matrix3d bound =
+        triangulation::position_bound(rig, ball, bearings, sim::kBallRadius, everything ? 0.0 : -1.0);
+    if (!bound.allFinite()) continue;
+    const triangulation::FloorSigma sigma = triangulation::floor_sigma_of(bound, ball);
+    distance.add(mean_of_normal * sigma.distance);
+    direction.add(mean_of_normal * sigma.direction);
+  }
+  return {distance.mean(), direction.mean()};
+}
+
+using Key = std::tuple<Level, Differences, int, Knowledge>;
+using Rows = std::vector<const MeasurementRow*>;
+
+MeasurementCell cell_of(const Key& key, const Rows& rows, const MeasurementSettings& settings) {
+  MeasurementCell cell;
+  std::tie(cell.level, cell.differences, cell.system, cell.knowledge) = key;
+  const std::size_t points = lattice_of(settings, cell.differences).points.size();
+  cell.asked = static_cast<int>(rows.size());
+  std::vector<double> distances = magnitudes_of(rows, &MeasurementRow::distance_error);
+  cell.measured = static_cast<int>(distances.size());
+  cell.distance = statistics_of(std::move(distances), sums_by_draw(rows, &MeasurementRow::distance_error));
+  cell.direction = statistics_of(magnitudes_of(rows, &MeasurementRow::direction_error),
+                                 sums_by_draw(rows, &MeasurementRow::direction_error));
+  cell.distance_by_point = means_by_point(rows, &MeasurementRow::distance_error, points);
+  cell.direction_by_point = means_by_point(rows, &MeasurementRow::direction_error, points);
+  cell.first_distance = first_draw(rows, &MeasurementRow::distance_error, points);
+  cell.first_direction = first_draw(rows, &MeasurementRow::direction_error, points);
+  return cell;
+}
+
+void add_bounds(const MeasurementSettings& settings, MeasurementSummary& summary) {
+  std::array<MeanBound, kRigs> free, all;
+  for (std::size_t i = 0; i < kRigs; ++i) {
+    free[i] = mean_bound(settings, settings.rigs[i], summary.lattice, false);
+    all[i] = mean_bound(settings, settings.rigs[i], summary.lattice, true);
+  }
+  for (MeasurementCell& cell : summary.cells) {
+    const RigIndex rig = kSystems.at(static_cast<std::size_t>(cell.system)).rig;
+    const bool bounded = cell.level == Level::bearings && cell.differences == Differences::all;
+    cell.free_bound = bounded ? free[rig] : MeanBound{kUnknown, kUnknown};
+    cell.bound = bounded ? all[rig] : MeanBound{kUnknown, kUnknown};
+  }
+}
+
+}  // namespace
+
+const MeasurementCell* MeasurementSummary::find(Level level, Differences differences, const char* system,
+                                                Knowledge knowledge) const {
+  const int index = system_index(system);
+  for (const MeasurementCell& cell : cells) {
+    if (cell.level == level && cell.differences == differences && cell.system == index && cell.knowledge == knowledge) {
+      return &cell;
+    }
+  }
+  return nullptr;
+}
+
+MeasurementRatio ratio_of(const std::vector<MeasurementRow>& rows, Level level, const char* one,
+                          Knowledge one_knowledge, const char* other, Knowledge other_knowledge) {
+  const int first = system_index(one);
+  const int second = system_index(other);
+  std::map<int, std::pair<Sum, Sum>> draws;
+  for (const MeasurementRow& row : rows) {
+    if (row.level != level || row.differences != Differences::all || row.status != "ok") continue;
+    const double error = std::abs(row.distance_error);
+    if (row.system == first && row.knowledge == one_knowledge) draws[row.draw].first.add(error);
+    if (row.system == second && row.knowledge == other_knowledge) draws[row.draw].second.add(error);
+  }
+  std::vector<std::pair<Sum, Sum>> pairs;
+  for (const auto& [draw, pair] : draws) {
+    if (pair.first.count > 0 && pair.second.count > 0) pairs.push_back(pair);
+  }
+  const auto ratio = [&](const std::vector<std::size_t>& picked) {
+    Sum above, below;
+    for (const std::size_t i : picked) {
+      above.add(pairs[i].first);
+      below.add(pairs[i].second);
+    }
+    return above.mean() / below.mean();
+  };
+  std::vector<std::size_t> all(pairs.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  if (all.empty()) return {kUnknown, {kUnknown, kUnknown}};
+  return {ratio(all), bootstrap(pairs.size(), ratio)};
+}
+
+MeasurementSummary summarize_measurement(const MeasurementSettings& settings, std::uint64_t seed,
+                                         const std::vector<MeasurementRow>& rows) {
+  MeasurementSummary summary;
+  summary.settings = settings;
+  summary.seed = seed;
+  summary.lattice = lattice_of(settings, Differences::all);
+  std::map<Key, Rows> cells;
+  for (const MeasurementRow& row : rows) {
+    cells[{row.level, row.differences, row.system, row.knowledge}].push_back(&row);
+  }
+  for (const auto& [key, of_key] : cells) summary.cells.push_back(cell_of(key, of_key, settings));
+  add_bounds(settings, summary);
+  summary.findings = findings_of(summary, rows);
+  return summary;
+}
+
+}  // namespace movis::experiments
