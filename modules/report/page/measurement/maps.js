@@ -61,7 +61,7 @@ function drawPolarMap(box, page, values, kind, description) {
 function captionOf(cell, kind) {
   const {mean} = cell[kind.key];
   if (!known(mean)) return `${kind.title}: never measured`;
-  return `${kind.title}, on average ${kind.key === "distance" ? cm(mean) + " cm" : angle(mean) + "°"}`;
+  return `${kind.title}, mean of all draws ${kind.key === "distance" ? cm(mean) + " cm" : angle(mean) + "°"}`;
 }
 
 // All places first: a drawing is as wide as its place, which depends on how many there are.
