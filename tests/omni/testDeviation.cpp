@@ -39,7 +39,7 @@ TEST(Deviation, OfAUnifiedSphereToo) {
   Deviation deviation = Deviation::Zero();
   deviation[6] = -0.1;
   deviation[8] = 2.0;
-  const auto& built = std::get<UnifiedSphere>(deviated(sphere, deviation).model);
+  const auto built = std::get<UnifiedSphere>(deviated(sphere, deviation).model);
   EXPECT_DOUBLE_EQ(built.fu, 270.0);
   EXPECT_DOUBLE_EQ(built.fv, 279.0);
   EXPECT_DOUBLE_EQ(built.u0, 320.0);
