@@ -268,7 +268,7 @@ std::optional<BallCone> fit_silhouette(const ImageView& image, const PolarMap& m
   constexpr double kWidthMin = 0.25;
   constexpr double kWidthMax = 1.5;
   constexpr double kRadiusMax = 1.5;   // radians
-  constexpr double kLeastScale = 0.5;  // of the variances that Σ tells, where the residuals are smaller
+  constexpr double kLeastScale = 0.3;  // of the variances that Σ tells, where the residuals are smaller
 
   std::vector<Sample>& border = scratch.border;
   const auto pixel = collect_border(image, map, box, start, border);
@@ -293,8 +293,7 @@ std::optional<BallCone> fit_silhouette(const ImageView& image, const PolarMap& m
     const Eigen::LDLT<Matrix4d> solver(sums.information);
     if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-13)) return std::nullopt;
     if (round == kRounds) {
-      // The pixels of a sector share the errors of its surroundings: half of them are independent.
-      const double scale = std::max(kLeastScale, 2.0 * sums.misfit / std::max(1, sums.pixels - 4));
+      const double scale = std::max(kLeastScale, sums.misfit / std::max(1, sums.pixels - 4));
       cone.covariance = scale * Matrix4d(solver.solve(Matrix4d::Identity())).topLeftCorner<3, 3>();
       return cone;
     }

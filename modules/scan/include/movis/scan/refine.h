@@ -34,12 +34,12 @@ namespace movis::scan {
 //   own robot, the edge lies hidden somewhere behind: the bearing is flagged, and the edge's standard deviation is half
 //   of the width that is seen.
 struct RefineOptions {
-  double dark = 0.03;                // ε, linear light of 1
-  int border_px = 2;                 // how far a mixed pixel may lie from the class's own pixels
-  double edge_window_deg = 1.5;      // half width of the window around a goal's edge, at least four pixels
-  double edge_band = 0.5;            // the central part of the goal's height in which its edges are sought
-  double pixel_sigma = 0.15;         // noise of one border pixel's position, in pixels: see the bearings' covariance
-  double azimuth_floor_deg = 0.004;  // what no number of pixels takes away: aliasing, the model
+  double dark = 0.03;                 // ε, linear light of 1
+  int border_px = 2;                  // how far a mixed pixel may lie from the class's own pixels
+  double edge_window_deg = 1.5;       // half width of the window around a goal's edge, at least four pixels
+  double edge_band = 0.5;             // the central part of the goal's height in which its edges are sought
+  double pixel_sigma = 0.15;          // noise of one border pixel's position, in pixels: see the bearings' covariance
+  double azimuth_floor_deg = 0.0035;  // what no number of pixels takes away: aliasing, the model
   double elevation_floor_deg = 0.01;
   double radius_floor_deg = 0.01;  // of a ball's angular radius
 };
