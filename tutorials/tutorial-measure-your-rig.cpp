@@ -1,22 +1,15 @@
-// How to measure a rig that somebody built: how many balls, how exactly, and where.
+// How to measure a rig that somebody built: how many balls, where, and how exactly.
 //
-// Scenario: three cameras were built after the drawing data/rigs/movis.yaml, and no part is quite where the drawing has
-// it. A ball is laid on marks whose places somebody took with a tape; from what the cameras see of it the rig is
-// calibrated. Then the ball lies at other places over 8 m × 8 m, and the calibrated rig measures it. The renderer knows
-// the rig as it was built; nothing that estimates does.
+// Scenario: three cameras were built after the drawing data/rigs/movis.yaml; nothing is quite where the drawing has it.
+// A ball is laid on marks whose places somebody measured, and the rig is calibrated from what the cameras see of it.
+// Then the ball lies elsewhere, and the calibrated rig measures it. Only the renderer knows the rig as it was built.
 //
-//   δ            by how much a camera differs from its drawing, nine numbers: movis/omni/deviation.h. Expected are 2 mm,
-//                0.6°, 0.25°, 0.4 % and 1.5 px, one sigma each; so much the built rig is drawn with
-//   mark i       at azimuth 2π·frac(g₁ i) and distance near·(far/near)^frac(g₂ i), g₁ = 0.7549, g₂ = 0.5698: the first N
-//                of them are spread evenly, for every N (M. Roberts, The Unreasonable Effectiveness of Quasirandom
-//                Sequences, 2018), over all directions and over the logarithm of the distance
-//   tape         sigma of what x and of what y of a mark's written place are off by, each mark by itself, metres
-//   error        distance of the measured ball from the true one, mean over all balls measured and all rigs
-//   sigma        what is left of a δ's uncertainty, as the calibration states it; where that is more than 0.7 of what
-//                was expected, the data say nothing of it: it is not determined
-//
-// Source: the calibration's equations stand in movis/calibration/rig_calibration.h.
-
+//   δ        by how much a camera differs from its drawing: movis/omni/deviation.h. A calibration finds it and tells
+//            what sigma is left: movis/calibration/rig_calibration.h has the equations
+//   place i  at azimuth 2π·frac(0.7549 i) and a distance that goes with frac(0.5698 i): however many follow each other,
+//            they are spread evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018)
+//   tape     sigma of a written place, x and y each, metres; the calibration's floor of azimuth must hold it: tape / 2
+//   m error    of a ball's place on the floor: mean over all rigs and over 20 places 0.5 to 4.5 m away
 #include <visp3/core/vpFont.h>
 #include <visp3/core/vpImageDraw.h>
 
@@ -26,82 +19,132 @@
 #include "movis/triangulation/joint.h"
 
 using namespace movis;
-using Places = std::vector<Eigen::Vector3d>;  // robot frame
-using Images = std::vector<std::shared_ptr<grab::FrameSet>>;
+using Eigen::Vector3d;
+using Images = std::vector<grab::FrameSet>;
+constexpr std::array<double, 3> kTapes{0.0, 0.002, 0.005};
+constexpr int kNear = 8, kMarks = 48, kAll = kMarks + 20;  // places: marks, the near ones first, then others
 
-constexpr double kNear = 0.45, kFar = 4.0;  // of marks, metres from the robot's centre
-constexpr std::array<int, 5> kCounts{8, 12, 16, 24, 40};
-constexpr std::array<double, 3> kTapes{0.0, 0.005, 0.010};
-constexpr int kTests = 20;
+struct Choice {  // a row of the table: the first marks that are so
+  const char* name;
+  std::size_t first, count;
+  bool (*so)(const Vector3d& mark) = [](const Vector3d&) { return true; };
+};
+const std::vector<Choice> kChoices{{"8, 1 to 4 m", kNear, 8},
+                                   {"16", kNear, 16},
+                                   {"16 in front", kNear, 16, [](const Vector3d& mark) { return mark.y() > 0.0; }},
+                                   {"16, 1 to 2 m", kNear, 16, [](const Vector3d& mark) { return mark.norm() < 2.0; }},
+                                   {"16 and 8 near", 0, 24},
+                                   {"40", kNear, 40}};
 
-Places marks() {
-  Places places;
-  for (int i = 1; i <= kCounts.back(); ++i) {
-    const double azimuth = 2.0 * kPi * std::fmod(0.7549 * i, 1.0);
-    const double distance = kNear * std::pow(kFar / kNear, std::fmod(0.5698 * i, 1.0));
-    places.emplace_back(distance * std::cos(azimuth), distance * std::sin(azimuth), sim::kBallRadius);
-  }
-  return places;
+struct Study {
+  double drawing = 0.0, built = 0.0;  // where the drawing is believed; where the rig is known
+  std::array<std::array<double, kTapes.size()>, 6> calibrated{};  // mean errors by choice and tape
+  std::array<calibration::RigCalibration, kTapes.size()> shown;   // of the last rig and choice
+  omni::Deviation truth;                                          // of its last camera
+};
+
+Vector3d place(int i) {
+  const double azimuth = 2.0 * kPi * 0.7549 * i, share = std::fmod(0.5698 * i, 1.0);
+  const double distance = i < kNear ? 0.5 : i < kMarks ? 1.0 + 3.0 * share : 0.5 + 4.0 * share;
+  return {distance * std::cos(azimuth), distance * std::sin(azimuth), sim::kBallRadius};
 }
 
-Places anywhere(int count, RandomStream& random) {
-  std::uniform_real_distribution<double> along(-4.0, 4.0);
-  Places places;
-  while (static_cast<int>(places.size()) < count) {
-    const Eigen::Vector3d place(along(random), along(random), sim::kBallRadius);
-    if (place.head<2>().norm() > kNear) places.push_back(place);
-  }
-  return places;
-}
-
-calibration::Sightings sightings(const omni::Rig& believed, const Images& images, const Places& places) {
+calibration::Sightings see(const omni::Rig& believed, const Images& images, int first, int last) {
   calibration::SightingScanner scanner(believed, scan::read_colours(data_file("colours/default.yaml")), {});
-  calibration::Sightings result{believed, {}};
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    result.frames.push_back(scanner.scan(*images[i]));
-    result.frames.back().ball_in_robot = places[i];
+  calibration::Sightings seen{believed, {}};
+  for (int i = first; i < last; ++i) seen.frames.push_back(scanner.scan(images[i]));
+  return seen;
+}
+
+void add_error(const omni::Rig& believed, const Images& images, int rigs, double& mean) {
+  const calibration::Sightings seen = see(believed, images, kMarks, kAll);
+  triangulation::JointOptions options;
+  options.contradiction_deg = 90.0;  // a point at any price: the drawing's cameras contradict each other
+  for (int i = kMarks; i < kAll; ++i) {
+    const auto& bearings = seen.frames[i - kMarks].bearings;
+    const auto ball = triangulation::triangulate_joint(believed, bearings, ObjectClass::ball, options);
+    if (ball.status != PointStatus::ok) throw Error("the ball at place {} is not measured: {}", i, word(ball.status));
+    mean += (ball.point - place(i)).head<2>().norm() / (rigs * (kAll - kMarks));
   }
-  return result;
+}
+
+calibration::RigCalibration calibrate(const calibration::Sightings& marks, const Choice& choice, double tape,
+                                      int seed) {
+  RandomStream random = make_stream(seed, 2);
+  std::normal_distribution<double> normal;
+  calibration::Sightings written{marks.rig, {}};
+  for (auto i = static_cast<int>(choice.first); i < kMarks && written.frames.size() < choice.count; ++i) {
+    const Vector3d slip(normal(random), normal(random), 0.0), mark = place(i);
+    if (!choice.so(mark)) continue;
+    written.frames.push_back(marks.frames[i]);
+    written.frames.back().ball_in_robot = mark + tape * slip;
+  }
+  calibration::RigOptions options;
+  options.azimuth_floor_deg = std::hypot(options.azimuth_floor_deg, degrees(tape / 2.0));
+  return calibration::calibrate_rig(marks.rig, written, options);
+}
+
+void study_rig(const omni::Rig& drawing, int seed, int rigs, Study& study) {
+  RandomStream random = make_stream(seed, 1);
+  std::normal_distribution<double> normal;
+  omni::Rig built = drawing;
+  for (omni::Camera& camera : built.cameras) {
+    for (int i = 0; i < omni::kDeviations; ++i) study.truth[i] = omni::individual_differences()[i] * normal(random);
+    camera = omni::deviated(camera, study.truth);
+  }
+  sim::Renderer renderer(built, {}, control::read_robot(data_file("robots/miniature.yaml")),
+                         sim::read_look(data_file("looks/hall.yaml")));
+  Images images(kAll);
+  for (int i = 0; i < kAll; ++i) renderer.render({0.0, {}, place(i)}, 1000 * seed + i, images[i]);
+  const calibration::Sightings marks = see(drawing, images, 0, kMarks);
+  add_error(drawing, images, rigs, study.drawing);
+  add_error(built, images, rigs, study.built);
+  for (std::size_t i = 0; i < kChoices.size() * kTapes.size(); ++i) {
+    const std::size_t c = i / kTapes.size(), k = i % kTapes.size();
+    study.shown[k] = calibrate(marks, kChoices[c], kTapes[k], seed);
+    add_error(study.shown[k].rig, images, rigs, study.calibrated[c][k]);
+  }
+}
+
+// Prints the errors and δ, and draws the errors as bars, 100 pixels a centimetre.
+void show(const Study& study, const std::string& out) {
+  vpImage<vpRGBa> chart(270, 590, vpRGBa(255, 255, 255));
+  fmt::print("error, cm; tape:     exact       2 mm       5 mm\n");
+  for (int c = 0; c < static_cast<int>(kChoices.size()); ++c) {
+    fmt::print("{:15}", kChoices[c].name);
+    vpFont(13).drawText(chart, kChoices[c].name, vpImagePoint(252, 12.0 + 94.0 * c), vpColor::black);
+    for (int k = 0; k < static_cast<int>(kTapes.size()); ++k) {
+      const double cm = 100.0 * study.calibrated[c][k], height = 100.0 * cm;
+      const vpRect bar(12.0 + 94.0 * c + 25.0 * k, 245.0 - height, 22.0, height);
+      vpImageDraw::drawRectangle(chart, bar, std::array{vpColor::green, vpColor::blue, vpColor::red}[k], true);
+      fmt::print("{:11.2f}{}", cm, k < 2 ? "" : "\n");
+    }
+  }
+  fmt::print("by the drawing {:.0f}, by the true rig {:.2f}\n", 100.0 * study.drawing, 100.0 * study.built);
+  fmt::print("δ by {} marks   true        exact              2 mm               5 mm\n", kChoices.back().count);
+  for (int i = 0; i < omni::kDeviations; ++i) {
+    const double unit = i < 3 ? 1e3 : i < 6 ? degrees(1.0) : i == 6 ? 1e2 : 1.0;  // mm, °, %, px
+    fmt::print("{:7}{:12.3f}", omni::kDeviationNames[i], unit * study.truth[i]);
+    for (const auto& found : study.shown) {
+      fmt::print("{:10.3f} ± {:5.3f}", unit * found.deviation.back()[i], unit * found.sigma.back()[i]);
+      fmt::print("{}", found.determined(2, i) ? ' ' : '*');
+    }
+    fmt::print("\n");
+  }
+  tutorial::write_picture(chart, out);
 }
 
 int main(int argc, char** argv) {
-  using Clock = std::chrono::steady_clock;
-  auto t0 = Clock::now();
-  auto lap = [&](const char* s) { auto t = Clock::now(); fprintf(stderr, "  [%s %.2f s]\n", s, std::chrono::duration<double>(t - t0).count()); t0 = Clock::now(); };
-  const omni::Rig nominal = omni::read_rig(data_file("rigs/movis.yaml"));
-  int seed = argc > 1 ? atoi(argv[1]) : 1;
-    RandomStream random = make_stream(seed, 1);
-    const omni::Rig built = omni::draw_rig(nominal, omni::individual_differences(), random);
-    Places cal = marks(), test = anywhere(kTests, random);
-    sim::Renderer renderer(built, {}, control::read_robot(data_file("robots/miniature.yaml")), sim::read_look(data_file("looks/hall.yaml")));
-    lap("construct");
-    Images ci(cal.size()), ti(test.size());
-    for (auto& p : ci) p = std::make_shared<grab::FrameSet>(); for (auto& p : ti) p = std::make_shared<grab::FrameSet>();
-    for (size_t i = 0; i < cal.size(); ++i) { renderer.render({0.0, {}, cal[i]}, seed*1000 + i, *ci[i]); ci[i]->index = i; }
-    for (size_t i = 0; i < test.size(); ++i) { renderer.render({0.0, {}, test[i]}, seed*1000 + 500+ i, *ti[i]); ti[i]->index = i; }
-    lap("render");
-    auto err = [&](const omni::Rig& r, double* worst=nullptr) {
-      auto s = sightings(r, ti, test); double sum = 0; int n = 0; double w=0; int miss=0;
-      for (auto& f : s.frames) { auto b = triangulation::triangulate_joint(r, f.bearings, ObjectClass::ball); if (b.status != PointStatus::ok) {miss++; continue;} double e=(b.point - *f.ball_in_robot).head<2>().norm(); w=std::max(w,e); sum += e; ++n; }
-      fmt::print("[{:5.2f} w {:5.2f} m {}]", 100*sum / n, 100*w, miss); return sum/n; };
-    err(nominal); err(built); fmt::print("\n"); lap("two err");
-    const Places offp = [&]{ Places p = cal; for (auto& q : p) { double c=std::cos(radians(0.5)), s=std::sin(radians(0.5)); q = Eigen::Vector3d(c*q.x()-s*q.y()+0.005, s*q.x()+c*q.y(), q.z()); } return p; }();
-    auto sel = [&](auto pred, int most) { std::vector<size_t> v; for (size_t i = 0; i < cal.size() && (int)v.size() < most; ++i) if (pred(cal[i])) v.push_back(i); return v; };
-    auto cali = [&](const std::vector<size_t>& idx, double tape, const Places& written, calibration::RigOptions o = {}) {
-      Images im; Places pl; RandomStream r2 = make_stream(seed, 2); std::normal_distribution<double> g;
-      Places noisy = written; for (auto& p : noisy) { p.x() += tape*g(r2); p.y() += tape*g(r2); }
-      for (auto i : idx) { im.push_back(ci[i]); pl.push_back(noisy[i]); }
-      auto first = calibration::calibrate_rig(nominal, sightings(nominal, im, pl), o).rig;
-      return calibration::calibrate_rig(nominal, sightings(first, im, pl), o); };
-    auto all = [](const Eigen::Vector3d&) { return true; };
-    for (int n : kCounts) { fmt::print("{:3} ", n); for (double t : kTapes) { try { auto c = cali(sel(all, n), t, cal); err(c.rig); fmt::print(" r{} ", c.rejected.size()); } catch (std::exception& e) { fmt::print("{} ", e.what()); } } fmt::print("\n"); lap("row"); }
-    auto where = [&](const char* name, auto pred, int most, const Places& w) { auto v = sel(pred, most); fmt::print("{:20} {:3}", name, v.size()); for (double t : kTapes) { try { auto c = cali(v, t, w); err(c.rig); fmt::print(" r{} ", c.rejected.size()); } catch (std::exception& e) { fmt::print("{} ", e.what()); } } fmt::print("\n"); };
-    where("all", all, 16, cal);
-    where("front", [](auto& p) { return p.y() > 0; }, 16, cal);
-    where("far>1.5", [](auto& p) { return p.norm() > 1.4; }, 16, cal);
-    where("near<1.4", [](auto& p) { return p.norm() < 1.4; }, 16, cal);
-    where("off", all, 16, offp);
-    lap("where");
-    setbuf(stdout, nullptr); for (double t : {0.0, 0.002}) try { auto c = cali(sel(all, 40), t, cal); for (int i = 0; i < 9; ++i) { fmt::print("{:7}", omni::kDeviationNames[i]); for (int k = 0; k < 3; ++k) fmt::print(" {:9.5f} ± {:8.5f}", c.deviation[k][i], c.sigma[k][i]); fmt::print("  {:.5f}\n", c.prior[i]); } fmt::print("bias {:.3f}±{:.3f} rms {:.3f} {:.3f}\n", degrees(c.elevation_bias), degrees(c.elevation_bias_sigma), degrees(c.azimuth_rms), degrees(c.elevation_rms)); } catch (std::exception& e) { fmt::print("{} ", e.what()); }
-    for (double fl : {0.05, 0.1, 0.2}) { calibration::RigOptions o; o.azimuth_floor_deg = fl; o.elevation_floor_deg = fl; for (double t : {0.005, 0.01}) { try { err(cali(sel(all, 40), t, cal, o).rig); } catch (std::exception& e) { fmt::print("{} ", e.what()); } } } fmt::print("\n");
+  CLI::App arguments("Calibrates rigs from balls at marks and measures by them", "tutorial-measure-your-rig");
+  int rigs = 1;
+  std::string out = "tutorial-measure-your-rig.png";
+  arguments.add_option("--rigs", rigs, "How many rigs")->capture_default_str()->check(CLI::Range(1, 1000));
+  arguments.add_option("--out", out, "The picture")->capture_default_str();
+  return tutorial::run(arguments, argc, argv, [&] {
+    Study study;
+    const omni::Rig drawing = omni::read_rig(data_file("rigs/movis.yaml"));
+    for (int seed = 1; seed <= rigs; ++seed) study_rig(drawing, seed, rigs, study);
+    show(study, out);
+    return study.calibrated.back()[0] < 1.5 * study.built && study.calibrated.back()[2] < 0.1 * study.drawing;
+  });
 }
