@@ -8,7 +8,7 @@
 //            what sigma is left: movis/calibration/rig_calibration.h has the equations
 //   place i  at azimuth 2π·frac(0.7549 i) and a distance that goes with frac(0.5698 i): however many follow each other,
 //            they are spread evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018)
-//   tape     sigma of a written place, x and y each, metres; the calibration's floor of azimuth must hold it: tape / 2
+//   tape     sigma of a written place, x and y each, metres; the calibration is told it
 //   m error    of a ball's place on the floor: mean over all rigs and over 20 places 0.5 to 4.5 m away
 #include <visp3/core/vpFont.h>
 #include <visp3/core/vpImageDraw.h>
@@ -80,7 +80,7 @@ calibration::RigCalibration calibrate(const calibration::Sightings& marks, const
     written.frames.back().ball_in_robot = mark + tape * slip;
   }
   calibration::RigOptions options;
-  options.azimuth_floor_deg = std::hypot(options.azimuth_floor_deg, degrees(tape / 2.0));
+  options.place_sigma = tape;
   return calibration::calibrate_rig(marks.rig, written, options);
 }
 

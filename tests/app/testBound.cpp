@@ -118,16 +118,41 @@ TEST_F(Bound, WrongArguments) {
   expect_failure({"--contrast", "-5"}, "--contrast -5", 2);
   expect_failure({"--step", "0"}, "--step 0", 2);
   expect_failure({"--blur", "-1"}, "--blur -1", 2);
-  expect_failure({"step is 5 m", "half width, 4 m"}, "--step 5", 1);
-  expect_failure({"step of 0.001 m", "coarser"}, "--step 0.001", 1);
-  expect_failure({"noise is nan"}, "--noise nan", 1);
+  expect_failure({"step is 5 m", "half width, 4 m"}, "--step 5", 2);
+  expect_failure({"step of 0.001 m", "coarser"}, "--step 0.001", 2);
+  expect_failure({"--page", "coarser"}, "--step 0.01 --page " + (folder_.path() / "p.html").string(), 2);
+  expect_failure({"--noise", "nan is no number"}, "--noise nan", 2);
+  for (const char* height : {"-5", "1e300", "nan"}) {
+    expect_failure({"--height", height}, std::string("--height ") + height, 2);
+  }
+}
+
+// A map of a million places takes minutes.
+TEST_F(Bound, InterruptedLeavesNothingBehind) {
+  const test::ProgramRun run =
+      test::run_program("timeout --signal=INT --kill-after=20 --preserve-status 0.5 " + std::string(MOVIS_PROGRAM) +
+                        " bound --rig " + rig_.string() + " --out " + out_.string() + " --half-width 100 --step 0.2");
+  EXPECT_EQ(run.exit_code, 1) << run.output;
+  EXPECT_NE(run.output.find("interrupted"), std::string::npos) << run.output;
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
+
+// No page stands without its table.
+TEST_F(Bound, TableThatCannotBeWritten) {
+  const test::ProgramRun run =
+      test::run_program(std::string(MOVIS_PROGRAM) + " bound --rig " + rig_.string() +
+                        " --out /dev/full --half-width 1 --step 1 --page " + (folder_.path() / "p.html").string());
+  EXPECT_EQ(run.exit_code, 1) << run.output;
+  EXPECT_NE(run.output.find("/dev/full: writing failed"), std::string::npos) << run.output;
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(Bound, PlacesThatCannotBeWritten) {
   expect_failure({"does not exist"}, "--page " + (folder_.path() / "absent/p.html").string(), 1);
   expect_failure({"--page", "name another file"}, "--page " + out_.string(), 1);
-  rig_ = folder_.write("rig.yaml", "cameras: []\n");
-  expect_failure({"--page", "is the file of --rig"}, "--page " + rig_.string(), 1);
+  fs::copy(rig_, folder_.path() / "rig.yaml");
+  rig_ = folder_.path() / "rig.yaml";
+  expect_failure({"--page", "is the input file"}, "--page " + rig_.string(), 1);
 }
 
 TEST_F(Bound, RigThatCannotBeRead) {

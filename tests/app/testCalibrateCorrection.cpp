@@ -113,12 +113,16 @@ TEST_F(CalibrateCorrection, TruthOfAnotherRecording) {
 }
 
 TEST_F(CalibrateCorrection, DoesNotOverwriteItsInput) {
-  const std::string before = read_text(data_ / "truth.csv");
-  const test::ProgramRun run_result =
-      run("calibrate correction --data " + data_.string() + " --out " + (data_ / "truth.csv").string());
-  EXPECT_EQ(run_result.exit_code, 1);
-  EXPECT_NE(run_result.output.find("is the input file"), std::string::npos) << run_result.output;
-  EXPECT_EQ(read_text(data_ / "truth.csv"), before);
+  fs::copy(data_ / "truth.csv", data_ / "mask.png");  // nothing reads it before
+  replace("rig.yaml", "name: M2", "name: M2\n  mask: mask.png");
+  for (const char* input : {"truth.csv", "mask.png"}) {
+    const std::string before = read_text(data_ / input);
+    const test::ProgramRun run_result =
+        run("calibrate correction --data " + data_.string() + " --out " + (data_ / input).string());
+    EXPECT_EQ(run_result.exit_code, 1) << input;
+    EXPECT_NE(run_result.output.find("is the input file"), std::string::npos) << run_result.output;
+    EXPECT_EQ(read_text(data_ / input), before);
+  }
 }
 
 TEST_F(CalibrateCorrection, MissingArguments) {

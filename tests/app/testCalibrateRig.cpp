@@ -83,7 +83,21 @@ TEST_F(CalibrateRig, NoTruthAndNoField) {
   fs::copy(data_file("images/open"), data, fs::copy_options::recursive);
   fs::remove(data / "truth.csv");
   fs::remove(data / "field.yaml");
-  expect_failure(calibrate(data), {"--field", "truth.csv"});
+  expect_failure(calibrate(data), {"--field", "add a truth.csv"});
+}
+
+TEST_F(CalibrateRig, BySelfWithoutAField) {
+  const fs::path data = folder_.path() / "set";
+  fs::copy(data_file("images/open"), data, fs::copy_options::recursive);
+  fs::remove(data / "field.yaml");
+  const test::ProgramRun run = calibrate(data, "--self");
+  expect_failure(run, {"--field", "leave --self out"});
+  EXPECT_EQ(run.output.find("without truth.csv"), std::string::npos) << run.output;
+}
+
+TEST_F(CalibrateRig, FieldThatIsNotUsed) {
+  const fs::path absent = folder_.path() / "absent.yaml";
+  expect_failure(calibrate(data_file("images/open"), "--field " + absent.string()), {"absent.yaml", "add --self"});
 }
 
 TEST_F(CalibrateRig, TruthOfAnotherRecording) {

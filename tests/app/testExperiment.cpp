@@ -81,7 +81,8 @@ TEST(Experiment, InterruptLosesNothing) {
     GTEST_SKIP() << "this machine was done before the interrupt";
   }
   EXPECT_FALSE(fs::exists(part + "/index.html"));
-  const test::ProgramRun resumed = test::run_program(experiment + " --resume --out " + part);
+  const char* resume = fs::exists(part + "/rows.csv") ? " --resume" : "";  // else it came before the first row
+  const test::ProgramRun resumed = test::run_program(experiment + resume + " --out " + part);
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
   const test::ProgramRun alone = test::run_program(experiment + " --jobs 2 --out " + whole);
   EXPECT_EQ(alone.exit_code, 0) << alone.output;
@@ -102,11 +103,18 @@ TEST(Experiment, WhatCannotWorkIsRefused) {
                {"measurement --jobs 0", "--jobs", 2},
                {"measurement --seed -1", "--seed", 2},
                {"measurement --replay 3", "rows.csv", 1},
+               {"measurement --replay 3 --seed 2", "--seed excludes --replay", 2},
+               {"measurement --replay 3 --jobs 2", "--jobs excludes --replay", 2},
+               {"measurement --replay 3 --resume", "--resume excludes --replay", 2},
+               {"measurement --replay 1.5", "1.5 not in range", 2},
+               {"measurement --replay -1", "-1 not in range", 2},
+               {"measurement --resume", "nothing can be resumed", 1},
                {"", "experiment is required", 2}};
   for (const auto& [arguments, message, exit_code] : cases) {
     const test::ProgramRun run = test::run_program(kProgram + " experiment " + arguments + out);
     EXPECT_EQ(run.exit_code, exit_code) << arguments << run.output;
     EXPECT_NE(run.output.find(message), std::string::npos) << arguments << run.output;
+    EXPECT_LT(run.output.size(), 600U) << run.output;
     EXPECT_FALSE(fs::exists(folder.path() / "rows.csv")) << arguments;
   }
 }

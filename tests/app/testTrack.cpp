@@ -186,7 +186,9 @@ TEST_F(Track, OutputFolderThatIsAbsent) {
 }
 
 TEST_F(Track, OutputOntoItsInput) {
-  for (const char* input : {"frames.csv", "rig.yaml", "images/000004_M2.png"}) {
+  fs::copy(data_ / "images/000000_M2.png", data_ / "mask.png");
+  replace("rig.yaml", "name: M2", "name: M2\n  mask: mask.png");
+  for (const char* input : {"frames.csv", "rig.yaml", "images/000004_M2.png", "mask.png"}) {
     const std::string before = read_text(data_ / input);
     const test::ProgramRun run = test::run_program(std::string(MOVIS_PROGRAM) + " track --data " + data_.string() +
                                                    " --out " + (data_ / input).string());

@@ -34,6 +34,16 @@ TEST(TrackWithPage, PlaceThatCannotBeWritten) {
   EXPECT_FALSE(std::filesystem::exists(estimates));
 }
 
+// No page stands without its table.
+TEST(TrackWithPage, EstimatesThatCannotBeWritten) {
+  const test::TemporaryFolder folder;
+  const test::ProgramRun run =
+      test::run_program(kTrack + "/dev/full --page " + (folder.path() / "track.html").string());
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.output.find("/dev/full: writing failed"), std::string::npos) << run.output;
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(TrackWithPage, SameFileAsTheEstimates) {
   const test::TemporaryFolder folder;
   const std::string file = (folder.path() / "est.csv").string();

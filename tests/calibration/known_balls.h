@@ -69,6 +69,15 @@ inline Sightings see_many(const omni::Rig& built, int count, std::uint64_t seed,
   return sightings;
 }
 
+// Places as a tape has them that errs by sigma in x and y, metres.
+inline void add_slips(Sightings& sightings, double sigma, std::uint64_t seed) {
+  RandomStream random = make_stream(seed, 7);
+  std::normal_distribution<double> normal;
+  for (Sighting& sighting : sightings.frames) {
+    for (int i = 0; i < 2; ++i) (*sighting.ball_in_robot)[i] += sigma * normal(random);
+  }
+}
+
 // Angles of corrected bearings, of elevations that the correction was fitted to, against the ball's true direction from
 // the nominal viewpoints.
 struct Left {

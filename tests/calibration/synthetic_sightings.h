@@ -134,10 +134,15 @@ inline calibration::Sightings see_balls(const omni::Rig& true_rig, const omni::R
   return sightings;
 }
 
-// Floors that nothing was added for are left out.
+inline calibration::Sightings exact_sightings(const omni::Rig& true_rig, int balls = 24) {
+  RandomStream random = make_stream(1, 1);
+  return see_balls(true_rig, drawn_rig(), spiral(balls), {}, 0.0, random);
+}
+
+// Floors that nothing was added for are left out, and places are exact.
 inline calibration::RigOptions without_floors() {
   calibration::RigOptions options;
-  options.azimuth_floor_deg = options.elevation_floor_deg = options.edge_floor_deg = 0.0;
+  options.azimuth_floor_deg = options.elevation_floor_deg = options.edge_floor_deg = options.place_sigma = 0.0;
   return options;
 }
 

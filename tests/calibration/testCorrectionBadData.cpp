@@ -148,5 +148,43 @@ TEST(CorrectionBadData, BearingOfNoCamera) {
   test::expect_error([&] { fit_correction(sightings); }, {"camera number 3", "3 cameras"});
 }
 
+// Each of these stays consistent in itself, so that functions as free as the correction's would follow it.
+TEST(CorrectionBadData, PlacesThatNoIndividualDifferenceExplains) {
+  const Sightings good = see_many(built_rig(1), 40, 1);
+  const auto expect_refused = [&](const char* what, auto change) {
+    Sightings sightings = good;
+    for (Sighting& sighting : sightings.frames) change(*sighting.ball_in_robot);
+    SCOPED_TRACE(what);
+    test::expect_error([&] { fit_correction(sightings); }, {"sigmas", "ball_z", "metres"});
+  };
+  expect_refused("a tenth too far", [](Vector3d& ball) { ball.head<2>() *= 1.1; });
+  expect_refused("height 0", [](Vector3d& ball) { ball.z() = 0.0; });
+  expect_refused("height negative", [](Vector3d& ball) { ball.z() = -kBall; });
+}
+
+TEST(CorrectionBadData, AnotherRig) {
+  Sightings sightings = see_many(built_rig(1), 40, 1);
+  for (omni::Camera& camera : sightings.rig.cameras) camera.position.z() *= 2.0;
+  test::expect_error([&] { fit_correction(sightings); }, {"M1", "sigmas", "rig"});
+}
+
+// 0.3° stated as 0.01°: with the floor of 0.02° that is 0.3/√(0.01² + 0.02²) = 13 times.
+TEST(CorrectionBadData, BearingsFarWorseThanTheySay) {
+  constexpr Noise kWild{radians(0.3), radians(0.03), radians(0.01), radians(0.03)};
+  test::expect_error([&] { fit_correction(see_many(built_rig(1), 40, 1, kWild)); }, {"leaves", "azimuth", "times"});
+}
+
+TEST(KnownPlaces, RefusesWhatNoBallIs) {
+  std::map<std::int64_t, grab::Truth> truth;
+  truth[7].ball_in_field = {1.0, 2.0, 0.11};
+  EXPECT_EQ(known_places(truth, "truth.csv").size(), 1U);
+  for (const double height : {0.0, -0.11}) {
+    truth[7].ball_in_field.z() = height;
+    test::expect_error([&] { known_places(truth, "truth.csv"); }, {"truth.csv", "frame 7", "ball_z"});
+  }
+  truth[7].ball_in_field = {100.0, 200.0, 0.11};  // centimetres
+  test::expect_error([&] { known_places(truth, "truth.csv"); }, {"truth.csv", "frame 7", "224 m", "metres"});
+}
+
 }  // namespace
 }  // namespace movis::calibration

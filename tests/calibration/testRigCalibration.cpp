@@ -12,11 +12,6 @@ using namespace test;  // NOLINT(google-build-using-namespace)
 
 constexpr int kYaw = 3;
 
-Sightings exact_sightings(const omni::Rig& true_rig, int balls = 24) {
-  RandomStream random = make_stream(1, 1);
-  return see_balls(true_rig, drawn_rig(), spiral(balls), {}, 0.0, random);
-}
-
 void expect_deviations(const RigCalibration& result, const std::vector<omni::Deviation>& expected, double sigmas) {
   for (std::size_t k = 0; k < expected.size(); ++k) {
     for (int i = 0; i < omni::kDeviations; ++i) {
@@ -261,13 +256,15 @@ TEST(RigCalibration, DifferencesBeyondBelief) {
 
 TEST(RigOptionsFile, ReadsStrictly) {
   const TemporaryFolder folder;
-  const RigOptions options = read_rig_options(YamlMap::read(
-      folder.write("a.yaml", "prior: {position: 0.01, yaw_deg: 3}\nazimuth_floor_deg: 0.02\nball_radius: 0.1\n")));
+  const RigOptions options = read_rig_options(YamlMap::read(folder.write(
+      "a.yaml",
+      "prior: {position: 0.01, yaw_deg: 3}\nazimuth_floor_deg: 0.02\nball_radius: 0.1\nplace_sigma: 0.004\n")));
   EXPECT_DOUBLE_EQ(options.prior[2], 0.01);
   EXPECT_NEAR(options.prior[kYaw], radians(3.0), 1e-15);
   EXPECT_DOUBLE_EQ(options.prior[6], omni::individual_differences()[6]);
   EXPECT_DOUBLE_EQ(options.azimuth_floor_deg, 0.02);
   EXPECT_DOUBLE_EQ(options.ball_radius, 0.1);
+  EXPECT_DOUBLE_EQ(options.place_sigma, 0.004);
   expect_error([&] { read_rig_options(YamlMap::read(folder.write("b.yaml", "prior: {yaw: 3}\n"))); },
                {"b.yaml:1", "'yaw'", "yaw_deg"});
   expect_error([&] { read_rig_options(YamlMap::read(folder.write("c.yaml", "edge_floor_deg: -1\n"))); },

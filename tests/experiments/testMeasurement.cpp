@@ -166,6 +166,116 @@ TEST(MeasurementRows, OfAnotherRunAreRefused) {
   test::expect_error([&] { run_measurement(settings, run, folder.path()); }, {"rows.csv:1", "header"});
 }
 
+// In the file's third line, row 1.
+void change_row(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+  std::string text = content(file);
+  std::size_t line = text.find('\n') + 1;
+  line = text.find('\n', line) + 1;
+  const std::size_t at = text.find(from, line);
+  ASSERT_LT(at, text.find('\n', line)) << from;
+  std::ofstream(file, std::ios::binary) << text.replace(at, from.size(), to);
+}
+
+// A row's number tells every cell but status and errors; whatever else stands there is no row of this experiment. Row 1
+// is that of the single camera by ground contact at (-1, -1), the first draw's first point, with the nominal rig.
+TEST(MeasurementRows, ThatAreNotOnesOfTheExperimentAreRefused) {
+  MeasurementSettings settings = small_settings();
+  settings.alone_draws = 0;
+  settings.bearing_draws = 1;
+  const test::TemporaryFolder folder;
+  run_measurement(settings, {}, folder.path());
+  const auto file = folder.path() / "rows.csv";
+  const std::string good = content(file);
+  const struct {
+    const char *from, *to;
+    std::initializer_list<const char*> message;
+  } cases[] = {
+      {",all,0,0,-1,", ",all,0,0,nan,", {"rows.csv:3", "'nan'", "column x", "'-1'"}},
+      {",all,0,0,-1,", ",all,0,0,1e6,", {"rows.csv:3", "'1e6'", "column x"}},
+      {",all,0,0,-1,", ",all,77,0,-1,", {"rows.csv:3", "'77'", "column draw"}},
+      {",all,0,0,-1,", ",all,0,99999,-1,", {"rows.csv:3", "'99999'", "column point"}},
+      {",all,0,0,-1,", ",all,0,-1,-1,", {"rows.csv:3", "'-1'", "column point"}},
+      {",bearings,", ",images,", {"rows.csv:3", "'images'", "column level", "'bearings'"}},
+      {"single-contact", "movis-pairs", {"rows.csv:3", "'movis-pairs'", "column system"}},
+      {",nominal,", ",true,", {"rows.csv:3", "'true'", "column knowledge"}},
+      {",ok,", ",banana,", {"rows.csv:3", "no status 'banana'"}},
+      {",ok,", ",parallel_rays,", {"rows.csv:3", "column distance_error_m", "has ''"}},
+      {",ok,", ",ok,nan,", {"rows.csv:3", "16 cells instead of 15"}},
+      {",ok,", ",ok,x", {"rows.csv:3", "where a number should"}},
+      {"1,", "1000000,", {"rows.csv:3", "no row 1000000"}},
+      {"1,", "0,", {"rows.csv:3", "column system"}},
+  };
+  MeasurementRun resume;
+  resume.resume = true;
+  for (const auto& [from, to, message] : cases) {
+    std::ofstream(file, std::ios::binary) << good;
+    change_row(file, from, to);
+    const std::string changed = content(file);
+    test::expect_error([&] { run_measurement(settings, resume, folder.path()); }, message);
+    test::expect_error([&] { replay_measurement(settings, 5, folder.path()); }, message);
+    EXPECT_EQ(content(file), changed) << to;
+  }
+  const std::size_t first = good.find('\n') + 1;
+  std::ofstream(file, std::ios::binary) << good + good.substr(first, good.find('\n', first) + 1 - first);
+  test::expect_error([&] { run_measurement(settings, resume, folder.path()); }, {"row 0", "second time"});
+}
+
+// Whatever stands in rows.csv that is not ours stays as it is, a half line of ours too when it is only read.
+TEST(MeasurementRows, ReadingChangesNoFile) {
+  const test::TemporaryFolder folder;
+  MeasurementSettings settings = small_settings();
+  settings.alone_draws = 0;
+  settings.bearing_draws = 1;
+  MeasurementRun resume;
+  resume.resume = true;
+  for (const char* foreign : {"precious single line", "a,b\n1,2\nhalf"}) {
+    const auto file = folder.write("rows.csv", foreign);
+    test::expect_error([&] { replay_measurement(settings, 0, folder.path()); }, {"rows.csv:1", "header"});
+    test::expect_error([&] { run_measurement(settings, resume, folder.path()); }, {"rows.csv:1", "header"});
+    EXPECT_EQ(content(file), foreign);
+  }
+  run_measurement(settings, {}, folder.path() / "ours");
+  const auto ours = folder.path() / "ours/rows.csv";
+  std::ofstream(ours, std::ios::app) << "4711,half a li";
+  const std::string before = content(ours);
+  const ReplayedRow replayed = replay_measurement(settings, 3, folder.path() / "ours");
+  EXPECT_EQ(replayed.stored, replayed.recomputed);
+  EXPECT_EQ(content(ours), before);
+}
+
+// Known before anything is measured, and named.
+TEST(MeasurementRows, PlacesThatCannotBeWrittenAreRefused) {
+  const test::TemporaryFolder folder;
+  const MeasurementSettings settings = small_settings();
+  MeasurementRun run;
+  run.progress = [](std::size_t, std::size_t) { FAIL() << "measured"; };
+  for (const char* name : {"rows.csv", "summary.json", "index.html"}) {
+    const auto out = folder.path() / (std::string("with-") + name);
+    std::filesystem::create_directories(out / name);
+    test::expect_error([&] { run_measurement(settings, run, out); }, {name, "is a folder", "--out"});
+  }
+  test::expect_error([&] { replay_measurement(settings, 0, folder.path() / "with-rows.csv"); },
+                     {"rows.csv", "is a folder"});
+  const auto file = folder.write("file", "text");
+  test::expect_error([&] { run_measurement(settings, run, file); }, {"file: is a file", "--out"});
+  test::expect_error([&] { run_measurement(settings, run, file / "below"); }, {"below", "cannot be created", "--out"});
+  run.resume = true;
+  test::expect_error([&] { run_measurement(settings, run, folder.path() / "absent"); }, {"rows.csv", "--resume"});
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "absent"));
+}
+
+// A robot as large as its lattice leaves no place for a ball, however long one seeks.
+TEST(Measurement, LatticeUnderTheRobotEnds) {
+  MeasurementSettings settings = small_settings();
+  settings.alone_draws = 0;
+  settings.robot.radius = 2.0;
+  settings.half_width = 1.0;
+  settings.bearing_draws = 1;
+  EXPECT_TRUE(lattice_of(settings, Differences::all).points.empty());
+  const test::TemporaryFolder folder;
+  test::expect_error([&] { run_measurement(settings, {}, folder.path()); }, {"2 m in radius", "half width 1 m"});
+}
+
 TEST(MeasurementRows, Replay) {
   const test::TemporaryFolder folder;
   const MeasurementSettings settings = small_settings();
@@ -202,6 +312,8 @@ TEST(MeasurementSettings, AreReadStrictly) {
                {"rigs/single.yaml", "rigs/movis.yaml", {"single", "3 cameras", "must have 1"}},
                {"rigs/vertical.yaml", "rigs/absent.yaml", {"vertical", "does not exist"}},
                {"half_width: 4.0", "half_width: 12.0", {"lattice", "hall"}},
+               {"rigs/single.yaml", "rigs", {"single", "is a folder"}},
+               {"robots/miniature.yaml", "robots", {"robot", "is a folder"}},
                {"detector_factor: 2.0", "detector_factor: 0", {"detector_factor", "out of range"}},
                {"quick: {step: 2.0", "quick: {stp: 2.0", {"quick", "stp"}}};
   for (const auto& [from, to, message] : cases) {
@@ -209,6 +321,33 @@ TEST(MeasurementSettings, AreReadStrictly) {
     const auto file = changed(folder, from, to);
     test::expect_error([&] { read_measurement(file, false); }, message);
   }
+}
+
+// A hull of 1 m and a ball of 0.11 m cover 1.11 m around the centre.
+TEST(MeasurementSettings, RobotThatCoversTheLatticeIsRefused) {
+  const test::TemporaryFolder folder;
+  std::string robot = content(data_file("robots/miniature.yaml"));
+  const auto radius = robot.find("\nradius:");
+  ASSERT_NE(radius, std::string::npos);
+  robot.replace(radius, robot.find('\n', radius + 1) - radius, "\nradius: 1.0");
+  const std::string named = folder.write("large.yaml", robot).string();
+  std::string text = content(changed(folder, "half_width: 4.0", "half_width: 1.0"));
+  const std::string shipped = data_file("robots/miniature.yaml").string();
+  const auto at = text.find(shipped);
+  ASSERT_NE(at, std::string::npos) << text;
+  const auto file = folder.write("covered.yaml", text.replace(at, shipped.size(), named));
+  test::expect_error([&] { read_measurement(file, false); }, {"covered.yaml", "lattice", "1 m", "1.11 m"});
+}
+
+TEST(MeasurementSettings, NoDrawsAreRefused) {
+  const test::TemporaryFolder folder;
+  std::string text = content(changed(folder, "images: {draws: 10}", "images: {draws: 0}"));
+  for (auto at = text.find("draws: 20"); at != std::string::npos; at = text.find("draws: 20")) {
+    text.replace(at, 9, "draws: 0");
+  }
+  const auto file = folder.write("nothing.yaml", text);
+  test::expect_error([&] { read_measurement(file, false); }, {"nothing.yaml", "0 draws", "raise"});
+  EXPECT_EQ(read_measurement(file, true).bearing_draws, 3);  // of the map `quick`
 }
 
 TEST(MeasurementSettings, QuickAndDifferencesAndDigest) {

@@ -1,6 +1,7 @@
 // The bound all over the floor.
 #include <gtest/gtest.h>
 
+#include "movis/core/error.h"
 #include "movis/triangulation/bound_map.h"
 #include "movis_rig.h"
 #include "support/temporary_folder.h"
@@ -21,6 +22,22 @@ TEST(BoundMap, CoversTheSquareRowByRow) {
   EXPECT_EQ(cells[24].place, Vector2d(1.0, 1.0));
   EXPECT_EQ(cells[0].cameras, 3);
   EXPECT_EQ(cells[12].floor.status, BoundStatus::unobservable);  // the robot's own place
+}
+
+TEST(BoundMap, TellsOfEveryRow) {
+  BoundMapOptions options;
+  options.half_width = 1.1;
+  options.step = 0.5;
+  EXPECT_EQ(bound_map_rows(options), 5);
+  int rows = 0;
+  bound_map(paper_rig(), options, [&] { ++rows; });
+  EXPECT_EQ(rows, 5);
+  rows = 0;
+  const auto stop_at_the_second = [&] {
+    if (++rows == 2) throw Error("stopped");
+  };
+  expect_error([&] { bound_map(paper_rig(), options, stop_at_the_second); }, {"stopped"});
+  EXPECT_EQ(rows, 2);
 }
 
 // The triangle looks the same from 120° on.
@@ -77,6 +94,7 @@ TEST(BoundMap, OptionsWithoutSense) {
   expect_error([&] { map([](auto& o) { o.step = 5.0; }); }, {"step is 5 m", "half width, 4 m"});
   expect_error([&] { map([](auto& o) { o.step = 0.001; }); }, {"0.001 m", "coarser"});
   expect_error([&] { map([](auto& o) { o.half_width = -1.0; }); }, {"half width is -1 m"});
+  expect_error([&] { map([](auto& o) { o.height = -5.0; }); }, {"height", "-5 m"});
   expect_error([&] { map([](auto& o) { o.picture.noise = 0.0; }); }, {"noise is 0", "above 0"});
   expect_error([&] { map([](auto& o) { o.picture.contrast = 0.0; }); }, {"contrast is 0"});
   expect_error([&] { map([](auto& o) { o.picture.blur_px = -0.1; }); }, {"blur is -0.1"});

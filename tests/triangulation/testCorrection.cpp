@@ -160,17 +160,49 @@ TEST(Correction, HoldsBeyondItsElevations) {
   EXPECT_EQ(inside.covariance(1, 1), 0.0);
 }
 
-// Δφ = 0.02 sec e sin φ and Δe = 0.02 sin e stretch the neighbourhood of φ = 0, e = 0 by 1.02 in both directions.
+// Δφ = 0.02 sec e sin φ stretches the neighbourhood of φ = 0, e = 0 by 1.02 along the azimuth.
 TEST(Correction, ScalesTheRadius) {
   Bearing bearing = bearing_at(0.0, 0.0);
   bearing.radius = 0.05;
   bearing.radius_variance = 1e-8;
   bearing.radius_covariance = {1e-9, 2e-9};
-  const Bearing found = corrected(correction_of({0.0, 0.0, 0.02}, {0.0, 0.0, 0.0, 0.02, 0.0, 0.0}), bearing);
+  Correction correction = correction_of({0.0, 0.0, 0.02});
+  const Bearing found = corrected(correction, bearing);
   EXPECT_NEAR(found.radius, 0.05 * 1.02, 1e-9);
   EXPECT_NEAR(found.radius_variance, 1e-8 * 1.02 * 1.02, 1e-14);
   EXPECT_NEAR(found.radius_covariance.x(), 1.02e-9, 1e-15);
+  correction.cameras[0].azimuth_sigma = 0.001;  // of the scale: 0.001 · 0.051
+  EXPECT_NEAR(corrected(correction, bearing).radius_variance, 1e-8 * 1.02 * 1.02 + 0.051 * 0.051 * 1e-6, 1e-14);
   EXPECT_EQ(corrected(correction_of({0.0, 0.0, 0.02}), bearing_at(0.0, 0.0)).radius, 0.0);  // not measured
+}
+
+// A camera that is turned sees a ball as large as before. By hand: ∂Δφ/∂φ = tan e (ω_x sin φ − ω_y cos φ) = tan e Δe.
+TEST(Correction, TiltKeepsTheRadius) {
+  constexpr double x = 0.004, y = -0.002;
+  const Correction correction = correction_of({0.0, 0.0, 0.0, -x, -y}, {0.0, -y, x});
+  for (const double azimuth : {-2.0, 0.3, 1.4}) {
+    Bearing bearing = bearing_at(azimuth, -0.5);
+    bearing.radius = 0.2;
+    EXPECT_NEAR(corrected(correction, bearing).radius, 0.2, 1e-9);
+  }
+}
+
+// From the viewpoint c + t a ball on the floor, h below, appears under sin γ' = R/|s d|, from c under R/|s d + t|.
+// s = 0.14/sin 0.4 = 0.36 m; t of 0.1 mm is 3e-4 of it, so that second order is below 1e-7; γ for tan γ, of the 5e-4 by
+// which they differ, is another 1e-9.
+TEST(Correction, ViewpointScalesTheRadiusByTheDistance) {
+  constexpr double h = 0.14, e = -0.4, R = 0.02;
+  const Vector3d t(8e-5, -6e-5, 0.0);
+  const Correction correction = correction_of({0.0, 0.0, 0.0, -t.y() / h, t.x() / h},
+                                              {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, t.x() / h, t.y() / h});
+  for (const double azimuth : {-2.0, 0.3, 1.4}) {
+    const Vector3d offset = h / std::sin(-e) * ray(azimuth, e);
+    Bearing bearing = bearing_at(azimuth, e);
+    bearing.radius = std::asin(R / offset.norm());
+    const double expected = std::asin(R / (offset + t).norm());
+    EXPECT_GT(std::abs(expected - bearing.radius), 1e-6);
+    EXPECT_NEAR(corrected(correction, bearing).radius, expected, 1e-7);
+  }
 }
 
 TEST(Correction, NoCamerasNothingHappens) {

@@ -25,6 +25,7 @@ class CorrectionFile : public testing::Test {
       camera.yaw = rig_.cameras[i].yaw;
       camera.tilt_x = rig_.cameras[i].tilt_x;
       camera.tilt_y = rig_.cameras[i].tilt_y;
+      camera.lens = lens_digest(rig_.cameras[i]);
       for (int k = 0; k < kAzimuthOrders[i + 1]; ++k) camera.azimuth.push_back(0.001 * (k + 1) * (i - 1.5));
       for (int k = 0; k < kElevationOrders[i + 2]; ++k) camera.elevation.push_back(-0.002 / (k + 3) * (i - 0.5));
       camera.azimuth_sigma = 1e-4 * (i + 1);
@@ -136,6 +137,38 @@ TEST_F(CorrectionFile, RigThatItWasNotFittedWith) {
 TEST_F(CorrectionFile, RigWhoseCameraWasMoved) {
   rig_.cameras[2].position.x() += 0.002;
   test::expect_error([&] { read(); }, {"cameras[2]", "another rig"});
+}
+
+TEST_F(CorrectionFile, RigWithAnotherLens) {
+  auto& lens = std::get<omni::Hyperboloid>(rig_.cameras[1].model);
+  lens.fu = 500.0;
+  test::expect_error([&] { read(); }, {"cameras[1].lens", "another lens", "it's M2"});
+  lens.fu = std::get<omni::Hyperboloid>(rig_.cameras[0].model).fu;
+  read();
+  lens.u0 += 20.0;
+  test::expect_error([&] { read(); }, {"cameras[1].lens", "another lens"});
+}
+
+TEST_F(CorrectionFile, CorrectsTooMuch) {
+  correction_.cameras[0].azimuth = {radians(11.0)};
+  test::expect_error([&] { write_correction(correction_, file_); }, {"correction.yaml", "not written", "M1", "11.0°"});
+  EXPECT_EQ(read().cameras[0].azimuth.size(), 3U);  // the former file stands
+  replace("azimuth_deg: [", "azimuth_deg: [11] # ");
+  test::expect_error([&] { read(); }, {"cameras[0]", "corrects by up to 11.0°"});
+}
+
+// 100.7° sin e is at most 9.1° down to e = −0.09.
+TEST_F(CorrectionFile, LargeCoefficientsThatDoLittleAreReadBack) {
+  CameraCorrection& camera = correction_.cameras[0];
+  camera.min_elevation = -0.09;
+  camera.elevation = {0.0, 0.0, 0.0, radians(-100.7), 0.0, 0.0};
+  write_correction(correction_, file_);
+  EXPECT_NEAR(read().cameras[0].elevation[3], radians(-100.7), 1e-9);
+}
+
+TEST_F(CorrectionFile, ElevationsThatCannotBeReadAreNotWritten) {
+  correction_.cameras[2].min_elevation = radians(-86.0);
+  test::expect_error([&] { write_correction(correction_, file_); }, {"not written", "M3: low", "elevations_deg"});
 }
 
 TEST_F(CorrectionFile, NoSuchFile) {

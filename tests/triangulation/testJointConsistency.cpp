@@ -148,6 +148,45 @@ TEST(JointConsistency, TwoOutliersOfFive) {
   EXPECT_LE(sum.efficiency(), 1.15);
 }
 
+// A ball at a height h above the floor that is too much for all cameras, and not for two, their heights being vaguer.
+// Four readings are left: in the air by all cameras, with χ² = 0 and 6 − 3 degrees of freedom; on the floor without
+// camera k, with 4 + 1 − 3 of them. Bearings are exact, so all that the latter do not explain is the floor, known to φ: of
+// bearings that leave the height z the variance s², χ² = h²/(s² + φ²). It pulls the ball away by C e_z h/φ², C being
+// the covariance with the floor. They share by exp(−(χ² − dof)/2): exp(1.5) to exp(1 − χ²/2).
+TEST(JointConsistency, ReadingsShareByWhatTheyDoNotExplain) {
+  const omni::Rig rig = paper_rig();
+  JointOptions options;
+  options.elevation_bias_deg = 0.0;
+  options.floor_sigma = 0.0003;
+  options.air_sigmas = 1.5;
+  JointOptions no_floor = options;
+  no_floor.floor = false;
+  const Vector3d below(0.5, 1.5, options.ball_radius);
+  const double floor_variance = options.floor_sigma * options.floor_sigma;
+  const auto height_variance = [&](const std::vector<int>& cameras) {
+    return floor_variance + place_bound(rig, cameras, below, {}, no_floor)(2, 2);
+  };
+  const double height = 1.55 * std::sqrt(height_variance(kAll));
+  double weights = std::exp(1.5);
+  Vector3d expected = Vector3d::Zero();
+  for (const std::vector<int>& two : {std::vector<int>{0, 1}, {0, 2}, {1, 2}}) {
+    const double chi2 = height * height / height_variance(two);
+    ASSERT_LT(chi2, 1.5 * 1.5);
+    const double weight = std::exp(1.0 - 0.5 * chi2);
+    weights += weight;
+    expected -= weight * height / floor_variance * place_bound(rig, two, below, {}, options).col(2);
+  }
+  expected /= weights;
+
+  const Vector3d ball = below + height * Vector3d::UnitZ();
+  std::vector<Bearing> bearings = exact_bearings(rig, ball);
+  for (Bearing& bearing : bearings) bearing.covariance = covariance_of({}).topLeftCorner<2, 2>();
+  const PointEstimate estimate = triangulate_joint(rig, bearings, ObjectClass::ball, options);
+  ASSERT_EQ(estimate.status, PointStatus::ok);
+  EXPECT_FALSE(estimate.on_floor);  // the heaviest
+  EXPECT_LT((estimate.point - ball - expected).norm(), 0.02 * expected.norm());
+}
+
 // One degree is too little to tell everywhere which of three cameras is wrong: the doubt has to show. Believing the
 // wrong one, or all, would give a NEES of hundreds: 1° is 100 sigma.
 TEST(JointConsistency, DoubtShowsInTheCovariance) {

@@ -8,10 +8,12 @@
 
 #include "interrupt.h"
 #include "movis/core/angle.h"
-#include "movis/core/error.h"
 #include "movis/core/output_file.h"
 #include "movis/core/version.h"
 #include "movis/report/bound_page.h"
+#include "outputs.h"
+#include "progress.h"
+#include "wrong_arguments.h"
 
 namespace movis::app {
 namespace {
@@ -26,21 +28,26 @@ constexpr int kDirections = 72;
 constexpr int kMostColumns = 401;   // of a page's map
 constexpr int kMostDistances = 40;  // of a page's polar map
 
-void check(const BoundArguments& arguments) {
-  std::error_code ignored;
-  for (const auto& [name, file] : {std::pair{"--out", std::optional(arguments.out)}, {"--page", arguments.page}}) {
-    if (file && fs::equivalent(*file, arguments.rig, ignored)) {
-      throw Error("{} {}: is the file of --rig; name another file", name, file->string());
-    }
+int rows_of_map(const BoundArguments& arguments) {
+  int rows = 0;
+  try {
+    rows = bound_map_rows(arguments.options);
+  } catch (const Error& error) {
+    throw WrongArguments(error.what());
   }
-  if (arguments.page && fs::weakly_canonical(*arguments.page) == fs::weakly_canonical(arguments.out)) {
-    throw Error("--page {}: is the file of --out; name another file", arguments.page->string());
+  if (arguments.page && rows > kMostColumns) {
+    throw WrongArguments("--page: a map of more than {} × {} places is no page; give a coarser --step than {} m",
+                         kMostColumns, kMostColumns, arguments.options.step);
   }
-  const BoundMapOptions& options = arguments.options;
-  if (arguments.page && 2.0 * options.half_width / options.step + 1.0 > kMostColumns) {
-    throw Error("--page: a map of more than {} × {} places is no page; give a coarser --step than {} m", kMostColumns,
-                kMostColumns, options.step);
-  }
+  return rows;
+}
+
+std::vector<BoundCell> make_map(const omni::Rig& rig, const BoundMapOptions& options, int rows) {
+  Progress progress("bound", static_cast<std::size_t>(rows));
+  return bound_map(rig, options, [&] {
+    check_interrupts();
+    progress.advance();
+  });
 }
 
 // The CSV file
@@ -184,13 +191,14 @@ report::BoundPage make_page(const BoundArguments& arguments, const omni::Rig& ri
 
 void bound(BoundArguments arguments) {
   arguments.options.height = arguments.height.value_or(arguments.options.ball_radius);
-  check(arguments);
+  const int rows_of_places = rows_of_map(arguments);
   const BoundMapOptions& options = arguments.options;
   const omni::Rig rig = omni::read_rig(arguments.rig);
+  refuse_to_overwrite({{"--out", arguments.out}, {"--page", arguments.page}}, files_of(rig, arguments.rig));
   OutputFile file(arguments.out);
-  const std::vector<BoundCell> cells = bound_map(rig, options);
-  check_interrupts();
+  const std::vector<BoundCell> cells = make_map(rig, options, rows_of_places);
   write_cells(cells, file.stream());
+  flush(file);
   const std::vector<report::BoundRow> rows = summarize(rig, options, arguments.free);
   if (arguments.page) write_bound_page(make_page(arguments, rig, cells, rows), *arguments.page);
   file.commit();

@@ -12,28 +12,13 @@
 #include "movis/grab/dataset.h"
 #include "movis/grab/truth.h"
 #include "movis/pipeline/pipeline.h"
+#include "outputs.h"
 #include "progress.h"
 
 namespace movis::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-void refuse_to_overwrite_input(const CalibrateCorrectionArguments& arguments, const grab::Dataset& dataset) {
-  std::vector<fs::path> inputs{dataset.rig_file, dataset.folder / "frames.csv", dataset.folder / "truth.csv",
-                               dataset.folder / "field.yaml"};
-  for (const auto& file : {arguments.colours, arguments.options}) {
-    if (file) inputs.push_back(*file);
-  }
-  for (const grab::DatasetFrame& frame : dataset.frames) {
-    for (const grab::DatasetImage& image : frame.images) inputs.push_back(image.file);
-  }
-  std::error_code ignored;
-  for (const fs::path& input : inputs) {
-    if (input.empty() || !fs::equivalent(arguments.out, input, ignored)) continue;
-    throw Error("--out {}: is the input file {}; name another file", arguments.out.string(), input.string());
-  }
-}
 
 void print_table(const calibration::CorrectionFit& fit) {
   fmt::print("            azimuth, rms                          elevation, rms\n");
@@ -64,8 +49,8 @@ void calibrate_correction(const CalibrateCorrectionArguments& arguments) {
     throw Error("{}: is missing; the correction is fitted to balls at known places, which stand there",
                 truth_file.string());
   }
-  const calibration::KnownPlaces places = calibration::known_places(grab::read_truth(truth_file));
-  refuse_to_overwrite_input(arguments, dataset);
+  const calibration::KnownPlaces places = calibration::known_places(grab::read_truth(truth_file), truth_file);
+  refuse_to_overwrite({{"--out", arguments.out}}, files_of(dataset), {arguments.colours, arguments.options});
   const scan::Colours colours =
       scan::read_colours(arguments.colours ? *arguments.colours : data_file("colours/default.yaml"));
   const pipeline::Options options =
@@ -78,7 +63,7 @@ void calibrate_correction(const CalibrateCorrectionArguments& arguments) {
         progress.advance();
       });
   progress.finish();
-  const calibration::CorrectionFit fit = calibration::fit_correction(sightings);
+  const calibration::CorrectionFit fit = calibration::fit_correction(sightings, {arguments.place_sigma});
   triangulation::write_correction(fit.correction, arguments.out);
 
   fmt::print("error correction from {} sets of {} images\n", dataset.frames.size(), dataset.rig.cameras.size());

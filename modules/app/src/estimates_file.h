@@ -4,6 +4,7 @@
 
 #include "movis/core/output_file.h"
 #include "movis/pipeline/pipeline.h"
+#include "outputs.h"
 
 namespace movis::app {
 
@@ -12,6 +13,7 @@ class EstimatesFile {
  public:
   explicit EstimatesFile(const std::filesystem::path& file);
   void add(const pipeline::Estimate& estimate);
+  void flush() { app::flush(output_); }
   void commit() { output_.commit(); }
 
  private:

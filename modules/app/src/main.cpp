@@ -1,11 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
 
 #include "bound_command.h"
-#include "calibrate_command.h"
 #include "calibrate_correction.h"
+#include "calibrate_rig.h"
 #include "demo_command.h"
 #include "experiment_command.h"
 #include "interrupt.h"
@@ -13,6 +14,7 @@
 #include "movis/localization/localizer.h"
 #include "movis/triangulation/triangulator.h"
 #include "track_command.h"
+#include "wrong_arguments.h"
 
 namespace {
 
@@ -76,6 +78,18 @@ void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
   demo->callback([&arguments] { movis::app::demo(arguments); });
 }
 
+// CLI::Range, which lets nan pass, without nan.
+CLI::Validator in_range(double least, double most) {
+  const auto is_number = [](const std::string& text) {
+    double value = 0.0;
+    return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is no number" : std::string();
+  };
+  return CLI::Range(least, most) & CLI::Validator(is_number, "");
+}
+
+constexpr const char* kPlaceSigma =
+    "How exactly the known places were measured: sigma of x and of y, metres; 0: exactly";
+
 void add_calibrate_correction(CLI::App& calibrate, movis::app::CalibrateCorrectionArguments& arguments) {
   CLI::App* correction =
       calibrate.add_subcommand("correction", "The error correction of the bearings, from balls at known places");
@@ -84,6 +98,9 @@ void add_calibrate_correction(CLI::App& calibrate, movis::app::CalibrateCorrecti
   correction->add_option("--out", arguments.out, "The correction, a YAML file for movis track --correction")
       ->required();
   correction->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
+  correction->add_option("--place-sigma", arguments.place_sigma, kPlaceSigma)
+      ->check(in_range(0.0, 0.1))
+      ->capture_default_str();
   correction->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
   correction->add_option("--options", arguments.options, "Options of the scan: YAML, as for movis track");
   correction->callback([&arguments] { movis::app::calibrate_correction(arguments); });
@@ -96,6 +113,7 @@ void add_calibrate_rig(CLI::App& calibrate, movis::app::CalibrateRigArguments& a
       ->required();
   rig->add_option("--out", arguments.out, "The calibrated rig.yaml")->required();
   rig->add_option("--rig", arguments.rig, "The nominal rig; default: the data set's rig.yaml");
+  rig->add_option("--place-sigma", arguments.place_sigma, kPlaceSigma)->check(in_range(0.0, 0.1));
   rig->add_flag("--self", arguments.self, "Use no known places even where there is a truth.csv");
   rig->add_option("--field", arguments.field, "For --self: another field than the data set's field.yaml");
   rig->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
@@ -118,7 +136,7 @@ void add_bound(CLI::App& program, movis::app::BoundArguments& arguments) {
   bound->add_option("--out", arguments.out, "The map, a CSV file")->required();
   bound->add_option("--page", arguments.page, "An HTML page with maps");
   const auto add = [&](const char* name, double& target, double least, double most, const char* text) {
-    bound->add_option(name, target, text)->check(CLI::Range(least, most))->capture_default_str();
+    bound->add_option(name, target, text)->check(in_range(least, most))->capture_default_str();
   };
   add("--contrast", options.picture.contrast, 0.001, 450.0,
       "Between ball and surroundings, grey levels; root of the sum of squares over three channels");
@@ -127,7 +145,8 @@ void add_bound(CLI::App& program, movis::app::BoundArguments& arguments) {
   add("--half-width", options.half_width, 0.01, 100.0, "Of the square floor around the robot, metres");
   add("--step", options.step, 0.001, 100.0, "Between the map's places, metres");
   add("--ball-radius", options.ball_radius, 0.001, 10.0, "Metres");
-  bound->add_option("--height", arguments.height, "Of the ball's centre, metres; default: it lies on the floor");
+  bound->add_option("--height", arguments.height, "Of the ball's centre, metres; default: it lies on the floor")
+      ->check(in_range(0.0, 100.0));
   add("--floor-sigma", options.floor_sigma, 0.0, 10.0, "How well that height is known where it is, metres; 0: exactly");
   bound->add_flag("--diameter", options.diameter, "The ball's apparent size tells its distance too");
   bound->add_flag("--free", arguments.free, "Table and page begin with a height that is not known");
@@ -138,15 +157,20 @@ void add_experiment(CLI::App& program, movis::app::ExperimentArguments& argument
   CLI::App* experiment = program.add_subcommand("experiment", "Run an experiment; its rows, summary and page");
   experiment->add_option("experiment", arguments.experiment, "A name in data/experiments, or a YAML file")->required();
   experiment->add_option("--out", arguments.out, "The folder of the results; default: movis-NAME");
-  experiment->add_option("--seed", arguments.seed, "Of all that is drawn at random")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
-      ->capture_default_str();
-  experiment->add_option("--jobs", arguments.jobs, "Threads; default: as many as there are cores")
-      ->check(CLI::Range(1, 1024));
+  const CLI::Range whole_numbers(std::int64_t{0}, std::int64_t{1} << 53);
+  CLI::Option* seed = experiment->add_option("--seed", arguments.seed, "Of all that is drawn at random")
+                          ->check(whole_numbers)
+                          ->capture_default_str();
+  CLI::Option* jobs = experiment->add_option("--jobs", arguments.jobs, "Threads; default: as many as there are cores")
+                          ->check(CLI::Range(1, 1024));
   experiment->add_flag("--quick", arguments.quick, "A small version, in seconds");
-  experiment->add_flag("--resume", arguments.resume, "Go on with the rows that the folder holds");
+  CLI::Option* resume =
+      experiment->add_flag("--resume", arguments.resume, "Go on with the rows that the folder holds");
   experiment->add_option("--replay", arguments.replay, "Recompute this row alone and print it beside the stored one")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_numbers)
+      ->excludes(seed)
+      ->excludes(jobs)
+      ->excludes(resume);
   experiment->callback([&arguments] { movis::app::experiment(arguments); });
 }
 
@@ -177,6 +201,9 @@ int main(int argc, char** argv) {
     return kDone;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? kDone : kWrongArguments;
+  } catch (const movis::app::WrongArguments& error) {
+    std::fprintf(stderr, "movis: %s\n", error.what());
+    return kWrongArguments;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "movis: %s\n", error.what());
     return kFailed;

@@ -52,6 +52,7 @@ std::string rig_table(const calibration::RigCalibration& result) {
       "  balls' residuals, rms: azimuth {:.3f}°, elevation {:.3f}°; they appear {:.3f} ± {:.3f}° too high\n",
       degrees(result.azimuth_rms), degrees(result.elevation_rms), degrees(result.elevation_bias),
       degrees(result.elevation_bias_sigma));
+  if (result.place_rms > 0.0) text += fmt::format("  known places, off by rms: {:.1f} mm\n", 1e3 * result.place_rms);
   if (result.goals > 0) text += fmt::format("  goals' edges, rms: {:.3f}°\n", degrees(result.edge_rms));
   for (const calibration::RejectedSighting& rejected : result.rejected) {
     const std::string who = rejected.camera < 0 ? "" : ", " + result.rig.cameras[rejected.camera].name;

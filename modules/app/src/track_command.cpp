@@ -16,6 +16,7 @@
 #include "movis/grab/truth.h"
 #include "movis/localization/localizer.h"
 #include "movis/pipeline/pipeline.h"
+#include "outputs.h"
 #include "progress.h"
 #include "track_frames.h"
 
@@ -39,32 +40,6 @@ pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Da
                               triangulation::find_triangulator(arguments.triangulation));
   if (arguments.correction) pipeline.correction = triangulation::read_correction(*arguments.correction, dataset.rig);
   return pipeline;
-}
-
-// The recording is worth more than the estimates.
-void refuse_to_overwrite_input(const TrackArguments& arguments, const grab::Dataset& dataset) {
-  std::vector<fs::path> inputs{dataset.rig_file, dataset.folder / "frames.csv", dataset.folder / "truth.csv",
-                               dataset.folder / "field.yaml"};
-  for (const auto& file : {arguments.field, arguments.colours, arguments.correction, arguments.options}) {
-    if (file) inputs.push_back(*file);
-  }
-  for (const omni::Camera& camera : dataset.rig.cameras) inputs.push_back(camera.mask);
-  for (const grab::DatasetFrame& frame : dataset.frames) {
-    for (const grab::DatasetImage& image : frame.images) inputs.push_back(image.file);
-  }
-  std::error_code ignored;
-  for (const fs::path& input : inputs) {
-    if (input.empty()) continue;
-    if (fs::equivalent(arguments.out, input, ignored)) {
-      throw Error("--out {}: is the input file {}; name another file", arguments.out.string(), input.string());
-    }
-    if (arguments.page && fs::equivalent(*arguments.page, input, ignored)) {
-      throw Error("--page {}: is the input file {}; name another file", arguments.page->string(), input.string());
-    }
-  }
-  if (arguments.page && fs::weakly_canonical(*arguments.page) == fs::weakly_canonical(arguments.out)) {
-    throw Error("--page {}: is the file of --out; name another file", arguments.page->string());
-  }
 }
 
 double median(std::vector<double> values) {
@@ -95,7 +70,8 @@ void track(const TrackArguments& arguments) {
     if (!fits) throw Error("{}: has none of the frames of frames.csv; is it of another recording?", file.string());
   }
 
-  refuse_to_overwrite_input(arguments, source.dataset());
+  refuse_to_overwrite({{"--out", arguments.out}, {"--page", arguments.page}}, files_of(source.dataset()),
+                      {arguments.field, arguments.colours, arguments.correction, arguments.options});
   EstimatesFile estimates(arguments.out);
   Evaluation evaluation;
   std::map<std::string, int> ball_statuses, pose_statuses;
@@ -116,6 +92,7 @@ void track(const TrackArguments& arguments) {
     if (true_state != nullptr) evaluation.add(estimate, *true_state);
     if (frames) frames->add(pipeline, images, true_state);
   }
+  estimates.flush();
   if (frames) {
     const std::string command = fmt::format("movis track --data {} --triangulation {} --localizer {}",
                                             arguments.data.string(), arguments.triangulation, arguments.localizer);

@@ -53,44 +53,76 @@ class TermCost final : public ceres::CostFunction {
   const Term& term_;
 };
 
-// The used terms and the priors as a problem of Ceres on `values`.
-struct Problem {
-  Problem(const Adjustment& adjustment, std::vector<Unknown>& unknowns, double outlier_scale) {
-    in_use.assign(unknowns.size(), false);
+// The used terms and the priors as a problem of Ceres. Ceres orders blocks by their addresses, so that all lie in one
+// array, in the unknowns' order: the same problem gives the same bits.
+class Problem {
+ public:
+  Problem(const Adjustment& adjustment, double outlier_scale) : unknowns_(adjustment.unknowns) {
+    std::size_t size = 0;
+    for (const Unknown& unknown : unknowns_) size += static_cast<std::size_t>(unknown.value.size());
+    values_.resize(size);
+    double* next = values_.data();
+    for (const Unknown& unknown : unknowns_) {
+      block_.push_back(next);
+      next = std::copy(unknown.value.begin(), unknown.value.end(), next);
+    }
+    in_use_.assign(unknowns_.size(), false);
+    add_terms(adjustment, outlier_scale);
+    add_priors();
+  }
+
+  // Where a camera's sightings are all wrong, its unknowns would run away to where nothing is defined.
+  void keep_near() {
+    constexpr double kFarthest = 15.0;  // sigmas
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      if (!unknowns_[i].expected) continue;
+      for (int component = 0; component < unknowns_[i].value.size(); ++component) {
+        problem_.SetParameterLowerBound(block_[i], component, -kFarthest);
+        problem_.SetParameterUpperBound(block_[i], component, kFarthest);
+      }
+    }
+  }
+
+  void copy_solution(std::vector<Unknown>& unknowns) const {
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      unknowns[i].value = Eigen::Map<const Eigen::VectorXd>(block_[i], unknowns[i].value.size());
+    }
+  }
+
+  ceres::Problem& ceres() { return problem_; }
+  double* block(std::size_t unknown) { return block_[unknown]; }
+  bool in_use(std::size_t unknown) const { return in_use_[unknown]; }
+
+ private:
+  void add_terms(const Adjustment& adjustment, double outlier_scale) {
     for (const Term& term : adjustment.terms) {
       if (!term.used) continue;
       std::vector<double*> blocks;
       for (const int i : term.unknowns) {
-        blocks.push_back(unknowns[i].value.data());
-        in_use[i] = true;
+        blocks.push_back(block_[i]);
+        in_use_[i] = true;
       }
       ceres::LossFunction* loss = outlier_scale > 0.0 ? new ceres::CauchyLoss(outlier_scale) : nullptr;
-      problem.AddResidualBlock(new TermCost(term, adjustment.unknowns), loss, blocks);
+      problem_.AddResidualBlock(new TermCost(term, unknowns_), loss, blocks);
     }
-    for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      if (!unknowns[i].expected) continue;
-      const auto size = unknowns[i].value.size();
-      in_use[i] = true;
-      problem.AddResidualBlock(
+  }
+
+  void add_priors() {
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      if (!unknowns_[i].expected) continue;
+      const auto size = unknowns_[i].value.size();
+      in_use_[i] = true;
+      problem_.AddResidualBlock(
           new ceres::NormalPrior(Eigen::MatrixXd::Identity(size, size), Eigen::VectorXd::Zero(size)), nullptr,
-          unknowns[i].value.data());
+          block_[i]);
     }
   }
 
-  // Where a camera's sightings are all wrong, its unknowns would run away to where nothing is defined.
-  void keep_near(std::vector<Unknown>& unknowns) {
-    constexpr double kFarthest = 15.0;  // sigmas
-    for (Unknown& unknown : unknowns) {
-      if (!unknown.expected) continue;
-      for (int i = 0; i < unknown.value.size(); ++i) {
-        problem.SetParameterLowerBound(unknown.value.data(), i, -kFarthest);
-        problem.SetParameterUpperBound(unknown.value.data(), i, kFarthest);
-      }
-    }
-  }
-
-  ceres::Problem problem;
-  std::vector<bool> in_use;
+  const std::vector<Unknown>& unknowns_;
+  std::vector<double> values_;
+  std::vector<double*> block_;  // of each unknown, in values_
+  std::vector<bool> in_use_;
+  ceres::Problem problem_;
 };
 
 void evaluate(Adjustment& adjustment) {
@@ -114,8 +146,8 @@ int Adjustment::add_free(const Eigen::VectorXd& first_value) {
 }
 
 void solve(Adjustment& adjustment, double outlier_scale) {
-  Problem problem(adjustment, adjustment.unknowns, outlier_scale);
-  problem.keep_near(adjustment.unknowns);
+  Problem problem(adjustment, outlier_scale);
+  problem.keep_near();
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;
@@ -123,21 +155,21 @@ void solve(Adjustment& adjustment, double outlier_scale) {
   options.linear_solver_type = ceres::DENSE_QR;
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t i = 0; i < adjustment.unknowns.size(); ++i) {
-    if (!problem.in_use[i]) continue;
-    Unknown& unknown = adjustment.unknowns[i];
-    if (!unknown.expected) options.linear_solver_type = ceres::DENSE_SCHUR;
-    ordering->AddElementToGroup(unknown.value.data(), unknown.expected ? 1 : 0);
+    if (!problem.in_use(i)) continue;
+    const bool expected = adjustment.unknowns[i].expected;
+    if (!expected) options.linear_solver_type = ceres::DENSE_SCHUR;
+    ordering->AddElementToGroup(problem.block(i), expected ? 1 : 0);
   }
   options.linear_solver_ordering = ordering;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem.problem, &summary);
+  ceres::Solve(options, &problem.ceres(), &summary);
   if (!summary.IsSolutionUsable()) {
     throw Error(
         "no rig near the nominal one explains what was seen ({}); are images, places, field and rig those of one "
-        "robot, "
-        "and of the same instants?",
+        "robot, and of the same instants?",
         summary.message);
   }
+  problem.copy_solution(adjustment.unknowns);
   evaluate(adjustment);
 }
 
@@ -180,26 +212,24 @@ double unit_weight_error(const Adjustment& adjustment) {
 }
 
 std::vector<Eigen::VectorXd> sigmas(const Adjustment& adjustment) {
-  std::vector<Unknown> unknowns = adjustment.unknowns;
-  Problem problem(adjustment, unknowns, 0.0);
+  Problem problem(adjustment, 0.0);
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   ceres::Covariance covariance(options);
   std::vector<std::pair<const double*, const double*>> wanted;
-  for (const Unknown& unknown : unknowns) {
-    if (unknown.expected) wanted.emplace_back(unknown.value.data(), unknown.value.data());
+  for (std::size_t i = 0; i < adjustment.unknowns.size(); ++i) {
+    if (adjustment.unknowns[i].expected) wanted.emplace_back(problem.block(i), problem.block(i));
   }
-  if (!covariance.Compute(wanted, &problem.problem)) {
+  if (!covariance.Compute(wanted, &problem.ceres())) {
     throw Error("the calibration's normal equations are singular: some frame tells nothing of its own place");
   }
   std::vector<Eigen::VectorXd> result;
-  for (const Unknown& unknown : unknowns) {
-    if (!unknown.expected) continue;
-    const auto size = unknown.value.size();
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(size, size);
-    covariance.GetCovarianceBlock(unknown.value.data(), unknown.value.data(), block.data());
-    result.push_back(block.diagonal().cwiseSqrt());
+  for (const auto& [block, same] : wanted) {
+    const auto size = problem.ceres().ParameterBlockSize(block);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> variances(size, size);
+    covariance.GetCovarianceBlock(block, same, variances.data());
+    result.push_back(variances.diagonal().cwiseSqrt());
   }
   return result;
 }

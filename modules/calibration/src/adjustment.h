@@ -4,8 +4,9 @@
 #include <functional>
 #include <vector>
 
-// Least squares over blocks of unknowns that share terms (Ceres is behind it). A term is what one camera measured in
-// one frame; its residual is in standard deviations of what it expects, so that lengths of different terms compare.
+// Least squares over blocks of unknowns that share terms (Ceres is behind it). A term is what one camera, or a tape,
+// measured in one frame; its residual is in standard deviations of what it expects, so that lengths of different terms
+// compare.
 namespace movis::calibration {
 
 struct Unknown {
@@ -13,17 +14,18 @@ struct Unknown {
   bool expected = false;  // has a prior: zero ± 1 in every component
 };
 
-enum class TermKind { ball, left_edge, right_edge };
+enum class TermKind { ball, left_edge, right_edge, place };
 
 struct Term {
-  int frame = 0;  // index into the frames
-  int camera = 0;
+  int frame = 0;   // index into the frames
+  int camera = 0;  // of a place: −1
   TermKind kind = TermKind::ball;
   std::vector<int> unknowns;                                                      // indices into Adjustment::unknowns
   int size = 0;                                                                   // of its residual
   std::function<bool(const double* const* unknowns, double* residual)> residual;  // false: not defined there
 
-  Eigen::Matrix2d root = Eigen::Matrix2d::Zero();  // radians of one sigma: root · residual is what it measures
+  Eigen::Matrix2d root =
+      Eigen::Matrix2d::Zero();  // of one sigma, radians; of a place metres: root · residual is what it measures
 
   bool used = true;
   Eigen::Vector2d at_solution = Eigen::Vector2d::Zero();  // its residual; in the first `size` components

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "correction_limits.h"
 #include "correction_points.h"
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
@@ -63,9 +64,19 @@ double root_mean_square(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
+// Where places err, what they scatter hides from the choice of an order that terms are missing, which stay in every
+// corrected bearing: then all of the first order are fitted.
 template <std::size_t n>
-SmoothFit fit_angle(const std::vector<SmoothSample>& samples, const std::array<int, n>& orders, int free) {
-  return fit_smooth_order(samples, {orders.begin(), orders.end()}, free, kStartSigma);
+SmoothFit fit_angle(const std::vector<SmoothSample>& samples, const std::array<int, n>& orders, int free,
+                    bool exact_places) {
+  const auto least = exact_places ? orders.begin() : std::find(orders.begin(), orders.end(), free);
+  return fit_smooth_order(samples, {least, orders.end()}, free, kStartSigma);
+}
+
+// What is left beyond the samples' variances has the coefficients' errors in it, but is too rough to show them where
+// the variances are large.
+double sigma_of(const SmoothFit& fit, const std::vector<SmoothSample>& samples, int free) {
+  return std::max(fit.sigma, prediction_sigma(samples, static_cast<int>(fit.coefficients.size()), free, fit.sigma));
 }
 
 std::vector<double> coefficients_of(const SmoothFit& fit) {
@@ -73,7 +84,7 @@ std::vector<double> coefficients_of(const SmoothFit& fit) {
 }
 
 void fit_camera(const omni::Camera& camera, const std::vector<CorrectionPoint>& points, const std::vector<int>& folds,
-                CorrectionFit& result) {
+                bool exact_places, CorrectionFit& result) {
   std::vector<SmoothSample> in_azimuth, in_elevation;
   std::vector<double> azimuth_before, elevation_before;
   triangulation::CameraCorrection correction;
@@ -88,18 +99,21 @@ void fit_camera(const omni::Camera& camera, const std::vector<CorrectionPoint>& 
     correction.min_elevation = std::min(correction.min_elevation, point.elevation);
     correction.max_elevation = std::max(correction.max_elevation, point.elevation);
   }
-  const SmoothFit azimuth = fit_angle(in_azimuth, triangulation::kAzimuthOrders, kFreeAzimuth);
-  const SmoothFit elevation = fit_angle(in_elevation, triangulation::kElevationOrders, kFreeElevation);
+  const SmoothFit azimuth = fit_angle(in_azimuth, triangulation::kAzimuthOrders, kFreeAzimuth, exact_places);
+  const SmoothFit elevation = fit_angle(in_elevation, triangulation::kElevationOrders, kFreeElevation, exact_places);
   correction.camera = camera.name;
   correction.azimuth = coefficients_of(azimuth);
   correction.elevation = coefficients_of(elevation);
-  correction.azimuth_sigma = azimuth.sigma;
-  correction.elevation_sigma = elevation.sigma;
+  correction.azimuth_sigma = sigma_of(azimuth, in_azimuth, kFreeAzimuth);
+  correction.elevation_sigma = sigma_of(elevation, in_elevation, kFreeElevation);
   correction.position = camera.position;
   correction.yaw = camera.yaw;
   correction.tilt_x = camera.tilt_x;
   correction.tilt_y = camera.tilt_y;
+  correction.lens = triangulation::lens_digest(camera);
   result.correction.cameras.push_back(correction);
+  refuse_poor_fit(camera.name, "azimuth", azimuth.left, in_azimuth, kAzimuthFloor);
+  refuse_poor_fit(camera.name, "elevation", elevation.left, in_elevation, kElevationFloor);
   result.azimuth_rms.push_back(root_mean_square(azimuth.left));
   result.elevation_rms.push_back(root_mean_square(elevation.left));
   result.azimuth_rms_before.push_back(root_mean_square(azimuth_before));
@@ -108,8 +122,8 @@ void fit_camera(const omni::Camera& camera, const std::vector<CorrectionPoint>& 
 
 }  // namespace
 
-CorrectionFit fit_correction(const Sightings& sightings) {
-  std::vector<CorrectionPoint> points = correction_points(sightings);
+CorrectionFit fit_correction(const Sightings& sightings, const CorrectionOptions& options) {
+  std::vector<CorrectionPoint> points = correction_points(sightings, options.place_sigma);
   const auto of_camera = [&](std::size_t camera) {
     std::vector<CorrectionPoint> own;
     for (const CorrectionPoint& point : points) {
@@ -125,7 +139,8 @@ CorrectionFit fit_correction(const Sightings& sightings) {
   const std::vector<int> folds = folds_of(sightings.frames.size());
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     require_places(cameras[i].name, of_camera(i));
-    fit_camera(cameras[i], of_camera(i), folds, result);
+    refuse_beyond_differences(sightings, of_camera(i));
+    fit_camera(cameras[i], of_camera(i), folds, options.place_sigma <= 0.0, result);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "correction_limits.h"
 #include "correction_points.h"
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
@@ -16,11 +17,10 @@ namespace {
 
 // The first-order bases: they are what a few frames can carry.
 constexpr int kAzimuthOrder = 5, kElevationOrder = 6;
-constexpr double kAzimuthFloor = radians(0.02);  // of what they leave, and of the bearings
-constexpr double kElevationFloor = radians(0.05);
-constexpr double kSigmas = 5.0;                // beyond which a point contradicts the others
-constexpr double kSigmasOfOthers = 3.0;        // beyond which the other cameras agree with one that does
-constexpr double kMostAzimuth = radians(0.5);  // an honest point is never further off, however much the others scatter
+constexpr double kSigmas = 5.0;          // beyond which a point contradicts the others
+constexpr double kSigmasOfOthers = 3.0;  // beyond which the other cameras agree with one that does
+// An honest point is never further off, however much the others scatter, but for what its place's error explains.
+constexpr double kMostAzimuth = radians(0.5);
 constexpr double kMostElevation = radians(1.0);
 constexpr int kDraws = 200;
 constexpr std::size_t kMostNamed = 12;  // frames in one message
@@ -34,6 +34,7 @@ struct CameraFit {
 struct Misfit {
   double azimuth = 0.0, elevation = 0.0;
   double azimuth_sigma = 0.0, elevation_sigma = 0.0;
+  double most_azimuth = 0.0, most_elevation = 0.0;
 
   double squares() const {  // in sigmas
     const double a = azimuth / azimuth_sigma, e = elevation / elevation_sigma;
@@ -76,7 +77,9 @@ std::vector<Misfit> misfits_of(const std::vector<CorrectionPoint>& points, const
     result.push_back({point.in_azimuth.value - predict(point.in_azimuth, fit.in_azimuth),
                       point.in_elevation.value - predict(point.in_elevation, fit.in_elevation),
                       std::sqrt(variance_of(point.in_azimuth, kAzimuthFloor)),
-                      std::sqrt(variance_of(point.in_elevation, kElevationFloor))});
+                      std::sqrt(variance_of(point.in_elevation, kElevationFloor)),
+                      std::hypot(kMostAzimuth, kSigmas * point.azimuth_of_place),
+                      std::hypot(kMostElevation, kSigmas * point.elevation_of_place)});
   }
   return result;
 }
@@ -169,8 +172,8 @@ std::vector<bool> contradicting(const std::vector<Misfit>& misfits, const Scatte
   std::vector<bool> result;
   result.reserve(misfits.size());
   for (const Misfit& misfit : misfits) {
-    const double most_azimuth = std::min(kSigmas * scatter.azimuth * misfit.azimuth_sigma, kMostAzimuth);
-    const double most_elevation = std::min(kSigmas * scatter.elevation * misfit.elevation_sigma, kMostElevation);
+    const double most_azimuth = std::min(kSigmas * scatter.azimuth * misfit.azimuth_sigma, misfit.most_azimuth);
+    const double most_elevation = std::min(kSigmas * scatter.elevation * misfit.elevation_sigma, misfit.most_elevation);
     result.push_back(std::abs(misfit.azimuth) > most_azimuth || std::abs(misfit.elevation) > most_elevation);
   }
   return result;
@@ -238,8 +241,7 @@ void refuse_many(const Sightings& sightings, const std::vector<CorrectionPoint>&
     if (named > kMostNamed) names += " …";
     throw Error(
         "in {} of {} frames the ball is not where it is said to stand, more than a third: nothing can be fitted to "
-        "that. "
-        "Check that each row of the truth belongs to its images (frames{})",
+        "that. Check that each row of the truth belongs to its images (frames{})",
         bad_frames.size(), frames, names);
   }
   for (int camera = 0; camera < static_cast<int>(sightings.rig.cameras.size()); ++camera) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLeastSigma = 1e-5;  // radians; of a bearing that claims less
 constexpr double kFlagged = 3.0;
+constexpr double kLeastDistance = 0.01;  // metres; no ball is nearer to a viewpoint
 
 Eigen::Vector3d to_ball(const Sightings& sightings, const CorrectionPoint& point, int camera) {
   return *sightings.frames[point.frame].ball_in_robot - sightings.rig.cameras[camera].position;
@@ -31,7 +32,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::vector<CorrectionPoint> correction_points(const Sightings& sightings) {
+std::vector<CorrectionPoint> correction_points(const Sightings& sightings, double place_sigma) {
   constexpr int kUnusable = kCutByBody | kCutByDomain | kCutByObject;
   const auto cameras = static_cast<int>(sightings.rig.cameras.size());
   std::vector<CorrectionPoint> points;
@@ -49,13 +50,18 @@ std::vector<CorrectionPoint> correction_points(const Sightings& sightings) {
       point.azimuth = bearing.azimuth;
       point.elevation = bearing.elevation;
       const Eigen::Vector3d offset = to_ball(sightings, point, point.camera);
+      const double distance = std::max(offset.head<2>().norm(), kLeastDistance);
+      point.azimuth_of_place = place_sigma / distance;
+      point.elevation_of_place = place_sigma * std::abs(offset.z()) / (distance * distance + offset.z() * offset.z());
       const double trust = bearing.clean() ? 1.0 : kFlagged * kFlagged;
       point.in_azimuth.basis = triangulation::azimuth_basis(bearing.azimuth, bearing.elevation);
       point.in_azimuth.value = turn(bearing.azimuth, azimuth_of(offset));
-      point.in_azimuth.variance = trust * std::max(bearing.covariance(0, 0), kLeastSigma * kLeastSigma);
+      point.in_azimuth.variance = trust * std::max(bearing.covariance(0, 0), kLeastSigma * kLeastSigma) +
+                                  point.azimuth_of_place * point.azimuth_of_place;
       point.in_elevation.basis = triangulation::elevation_basis(bearing.azimuth, bearing.elevation);
       point.in_elevation.value = std::atan2(offset.z(), offset.head<2>().norm()) - bearing.elevation;
-      point.in_elevation.variance = trust * std::max(bearing.covariance(1, 1), kLeastSigma * kLeastSigma);
+      point.in_elevation.variance = trust * std::max(bearing.covariance(1, 1), kLeastSigma * kLeastSigma) +
+                                    point.elevation_of_place * point.elevation_of_place;
       points.push_back(point);
     }
   }
@@ -82,8 +88,7 @@ void refuse_swapped_cameras(const Sightings& sightings, const std::vector<Correc
     if (off[seen] < kMuch || off[best] > kBetter * off[seen]) continue;
     throw Error(
         "the images of {} look like those of {}: the ball is {:.1f}° (median) from where it stands, taken for those of "
-        "{} "
-        "it is {:.1f}°; give each camera its own images in frames.csv, or its own yaw and position in the rig",
+        "{} it is {:.1f}°; give each camera its own images in frames.csv, or its own yaw and position in the rig",
         cameras[seen].name, cameras[best].name, degrees(off[seen]), cameras[best].name, degrees(off[best]));
   }
 }

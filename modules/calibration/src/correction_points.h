@@ -15,13 +15,15 @@ struct CorrectionPoint {
   int camera = 0;
   double azimuth = 0.0, elevation = 0.0;  // measured
   SmoothSample in_azimuth, in_elevation;
+  double azimuth_of_place = 0.0, elevation_of_place = 0.0;  // sigmas, radians: the part of the place's error
 };
 
 double median(std::vector<double> values);  // 0 of none
 
 // Of every bearing of a ball at a known place. Those that the own body, the picture's border or another object cut are
-// left out; those near another sensor unit count with three times their standard deviation.
-std::vector<CorrectionPoint> correction_points(const Sightings& sightings);
+// left out; those near another sensor unit count with three times their standard deviation. `place_sigma`, metres, is
+// added to the variances.
+std::vector<CorrectionPoint> correction_points(const Sightings& sightings, double place_sigma);
 
 // Throws an Error where a camera's azimuths are those of another camera.
 void refuse_swapped_cameras(const Sightings& sightings, const std::vector<CorrectionPoint>& points);

@@ -20,29 +20,35 @@ bool is_ball(const Term& term) {
 }
 
 struct FrameTerms {
-  std::vector<Term*> balls, edges;
+  std::vector<Term*> balls, edges, places;
+
+  std::vector<Term*>& of(TermKind kind) {
+    return kind == TermKind::ball ? balls : kind == TermKind::place ? places : edges;
+  }
 };
 
 // By the last solution, which terms are used and which frames are not.
 FrameVerdicts judge(Adjustment& adjustment, std::size_t frames) {
-  std::array<double, 3> scale{};
-  for (const TermKind kind : {TermKind::ball, TermKind::left_edge, TermKind::right_edge}) {
+  std::array<double, 4> scale{};
+  for (const TermKind kind : {TermKind::ball, TermKind::left_edge, TermKind::right_edge, TermKind::place}) {
     scale[static_cast<std::size_t>(kind)] = spread(adjustment, kind, kMostSpread);
   }
   const auto excess = [&](const Term& term) { return term.length() / scale[static_cast<std::size_t>(term.kind)]; };
   std::vector<FrameTerms> by_frame(frames);
   for (Term& term : adjustment.terms) {
     term.used = excess(term) <= kLimit;
-    (is_ball(term) ? by_frame[term.frame].balls : by_frame[term.frame].edges).push_back(&term);
+    by_frame[term.frame].of(term.kind).push_back(&term);
   }
   FrameVerdicts verdicts{std::vector<bool>(frames), std::vector<bool>(frames)};
   const auto left_out = [](const Term* term) { return !term->used; };
   for (std::size_t i = 0; i < frames; ++i) {
-    auto& [balls, edges] = by_frame[i];
+    auto& [balls, edges, places] = by_frame[i];
     const auto wrong_too = std::count_if(balls.begin(), balls.end(), [&](auto* t) { return excess(*t) > kWrongToo; });
-    if (std::any_of(balls.begin(), balls.end(), left_out) && wrong_too >= 2) {
+    const bool moved = std::any_of(places.begin(), places.end(), left_out);
+    if (moved || (std::any_of(balls.begin(), balls.end(), left_out) && wrong_too >= 2)) {
       verdicts.ball[i] = true;
       for (Term* term : balls) term->used = false;
+      for (Term* term : places) term->used = false;
     }
     constexpr std::ptrdiff_t kFewestEdges = 4;  // for the three numbers of a pose
     const auto wrong = std::count_if(edges.begin(), edges.end(), left_out);
@@ -66,8 +72,8 @@ double root_mean_square(double sum, int count) {
 }
 
 void summarize_residuals(const Adjustment& adjustment, RigCalibration& result) {
-  double azimuth = 0.0, elevation = 0.0, edge = 0.0;
-  int balls = 0, edges = 0;
+  double azimuth = 0.0, elevation = 0.0, edge = 0.0, place = 0.0;
+  int balls = 0, edges = 0, places = 0;
   std::set<int> ball_frames, goal_frames;
   for (const Term& term : adjustment.terms) {
     if (!term.used) continue;
@@ -77,6 +83,9 @@ void summarize_residuals(const Adjustment& adjustment, RigCalibration& result) {
       elevation += error.y() * error.y();
       ++balls;
       ball_frames.insert(term.frame);
+    } else if (term.kind == TermKind::place) {
+      place += error.squaredNorm();
+      places += 2;
     } else {
       edge += error.x() * error.x();
       ++edges;
@@ -86,6 +95,7 @@ void summarize_residuals(const Adjustment& adjustment, RigCalibration& result) {
   result.azimuth_rms = root_mean_square(azimuth, balls);
   result.elevation_rms = root_mean_square(elevation, balls);
   result.edge_rms = root_mean_square(edge, edges);
+  result.place_rms = root_mean_square(place, places);
   result.balls = static_cast<int>(ball_frames.size());
   result.goals = static_cast<int>(goal_frames.size());
 }
@@ -130,7 +140,7 @@ std::vector<CameraVerdict> contradicting_cameras(const Adjustment& adjustment, c
                                                  const Sightings& sightings) {
   std::vector<CameraVerdict> cameras(sightings.rig.cameras.size());
   for (const Term& term : adjustment.terms) {
-    if ((is_ball(term) ? verdicts.ball : verdicts.goals)[term.frame]) continue;
+    if (term.kind == TermKind::place || (is_ball(term) ? verdicts.ball : verdicts.goals)[term.frame]) continue;
     CameraVerdict& verdict = cameras[term.camera];
     verdict.camera = term.camera;
     ++verdict.sightings;
@@ -147,8 +157,7 @@ std::vector<CameraVerdict> contradicting_cameras(const Adjustment& adjustment, c
 void throw_contradiction(const CameraVerdict& verdict, const omni::Rig& nominal) {
   throw Error(
       "camera {} contradicts the others in {} of its {} sightings, in frames {}; are its images its own and of the "
-      "same "
-      "instants?",
+      "same instants?",
       nominal.cameras[verdict.camera].name, verdict.left_out.size(), verdict.sightings, listed(verdict.left_out));
 }
 

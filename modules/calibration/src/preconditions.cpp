@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "correction_points.h"
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
 #include "planar_rays.h"
@@ -14,12 +15,6 @@ namespace movis::calibration {
 namespace {
 
 using Order = std::vector<int>;  // by column of the data: the camera whose images are taken to stand there
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::size_t moved(const Order& order) {
   std::size_t count = 0;

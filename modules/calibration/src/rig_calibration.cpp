@@ -66,8 +66,11 @@ std::optional<Eigen::Vector2d> seen_place(const Drawing& drawing, const omni::Ri
 std::string contradiction(const Drawing& drawing, const omni::Rig& calibrated, const Sighting& sighting) {
   const auto seen = seen_place(drawing, calibrated, sighting);
   if (!seen) return "the cameras do not see the ball at its known place, nor together at any other";
-  return fmt::format("the cameras see the ball {:.2f} m from its known place, at ({:.2f}, {:.2f}) m of the robot frame",
-                     (*seen - sighting.ball_in_robot->head<2>()).norm(), seen->x(), seen->y());
+  constexpr double kSmall = 0.01;  // metres
+  const double off = (*seen - sighting.ball_in_robot->head<2>()).norm();
+  return fmt::format("the cameras see the ball {} from its known place, at ({:.3f}, {:.3f}) m of the robot frame",
+                     off < kSmall ? fmt::format("{:.1f} mm", 1e3 * off) : fmt::format("{:.2f} m", off), seen->x(),
+                     seen->y());
 }
 
 void name_rejected(const Adjustment& adjustment, const FrameVerdicts& verdicts, const Drawing& drawing,
@@ -117,9 +120,10 @@ RigCalibration calibrate_rig(const omni::Rig& nominal, const Sightings& sighting
   const RigUnknowns unknowns = add_rig_unknowns(adjustment, nominal.cameras.size());
   for (const int i : frames) {
     const Sighting& sighting = sightings.frames[i];
+    const int slip = add_slip(adjustment, i, options.place_sigma);
     for (const Bearing& bearing : sighting.bearings) {
       if (!useful_ball(bearing)) continue;
-      add_known_ball(adjustment, drawing, unknowns, i, bearing, *sighting.ball_in_robot);
+      add_known_ball(adjustment, drawing, unknowns, i, bearing, *sighting.ball_in_robot, slip);
     }
   }
   solve_robustly(adjustment);

@@ -27,10 +27,11 @@ void read_prior(const YamlMap& map, omni::Deviation& prior) {
 }  // namespace
 
 RigOptions read_rig_options(const YamlMap& map) {
-  map.allow({"prior", "azimuth_floor_deg", "elevation_floor_deg", "elevation_bias_deg", "edge_floor_deg",
+  map.allow({"prior", "place_sigma", "azimuth_floor_deg", "elevation_floor_deg", "elevation_bias_deg", "edge_floor_deg",
              "edge_bias_deg", "ball_radius"});
   RigOptions options;
   if (map.has("prior")) read_prior(map.map("prior"), options.prior);
+  map.read_number("place_sigma", {0.0, 0.1}, options.place_sigma);
   map.read_number("azimuth_floor_deg", kFloorDeg, options.azimuth_floor_deg);
   map.read_number("elevation_floor_deg", kFloorDeg, options.elevation_floor_deg);
   map.read_number("elevation_bias_deg", kFloorDeg, options.elevation_bias_deg);

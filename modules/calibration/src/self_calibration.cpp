@@ -139,8 +139,7 @@ void check_contradictions(const Adjustment& adjustment, const FrameVerdicts& ver
   if (3 * goals_wrong.size() > goals || 3 * edges_wrong > edges) {
     throw Error(
         "{} of {} goals' edges fit no pose on the field, in {} of {} frames not even half of them; is the field file "
-        "that "
-        "of these images (Fd, Fw, goal_depth, goal_thickness)?",
+        "that of these images (Fd, Fw, goal_depth, goal_thickness)?",
         edges_wrong, edges, goals_wrong.size(), goals);
   }
 }

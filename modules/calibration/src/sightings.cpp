@@ -1,17 +1,28 @@
 #include "movis/calibration/sightings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "movis/core/error.h"
 #include "movis/grab/dataset_source.h"
 
 namespace movis::calibration {
 
-KnownPlaces known_places(const std::map<std::int64_t, grab::Truth>& truth) {
+KnownPlaces known_places(const std::map<std::int64_t, grab::Truth>& truth, const std::filesystem::path& file) {
+  constexpr double kLowest = 0.02;    // metres; of a ball's centre: no ball is smaller
+  constexpr double kFarthest = 30.0;  // metres; no camera sees a ball there
   KnownPlaces places;
   for (const auto& [frame, row] : truth) {
     const Eigen::Vector2d ball_in_field = row.ball_in_field.head<2>();
     const Eigen::Vector2d ball_in_robot = inverse(row.world_from_robot) * ball_in_field;
+    if (!(row.ball_in_field.z() >= kLowest)) {
+      throw Error("{}: frame {}: ball_z is {} m; it is the height of the ball's centre, on the floor its radius",
+                  file.string(), frame, row.ball_in_field.z());
+    }
+    if (!(std::hypot(ball_in_robot.norm(), row.ball_in_field.z()) <= kFarthest)) {
+      throw Error("{}: frame {}: the ball is {:.0f} m from the robot, farther than {:.0f} m; are these metres?",
+                  file.string(), frame, ball_in_robot.norm(), kFarthest);
+    }
     places[frame] = {ball_in_robot.x(), ball_in_robot.y(), row.ball_in_field.z()};
   }
   return places;

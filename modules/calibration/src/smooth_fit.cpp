@@ -75,6 +75,13 @@ double predict(const SmoothSample& sample, const VectorXd& coefficients) {
   return sample.basis.head(coefficients.size()).dot(coefficients);
 }
 
+double prediction_sigma(const std::vector<SmoothSample>& samples, int order, int free, double sigma) {
+  const MatrixXd covariance = smooth_covariance(samples, order, free, sigma);
+  double sum = 0.0;
+  for (const SmoothSample& sample : samples) sum += sample.basis.head(order).dot(covariance * sample.basis.head(order));
+  return std::sqrt(sum / static_cast<double>(samples.size()));
+}
+
 std::vector<double> cross_validate(const std::vector<SmoothSample>& samples, int order, int free, double sigma) {
   std::vector<double> left(samples.size());
   int folds = 0;

@@ -26,6 +26,9 @@ Eigen::MatrixXd smooth_covariance(const std::vector<SmoothSample>& samples, int 
 
 double predict(const SmoothSample& sample, const Eigen::VectorXd& coefficients);
 
+// By what the coefficients' errors put the function off: root mean square over the samples.
+double prediction_sigma(const std::vector<SmoothSample>& samples, int order, int free, double sigma);
+
 // What of each sample a fit to the other folds leaves, radians.
 std::vector<double> cross_validate(const std::vector<SmoothSample>& samples, int order, int free, double sigma);
 

@@ -68,10 +68,36 @@ Eigen::Matrix2d expected_covariance(const Bearing& bearing, const RigOptions& op
   return (bearing.flags & kNearSensor) != 0 ? kNearSensorFactor * kNearSensorFactor * covariance : covariance;
 }
 
+int add_slip(Adjustment& adjustment, int frame, double place_sigma) {
+  if (place_sigma <= 0.0) return -1;
+  const int slip = adjustment.add_free(Eigen::Vector2d::Zero());
+  Term term;
+  term.frame = frame;
+  term.camera = -1;
+  term.kind = TermKind::place;
+  term.unknowns = {slip};
+  term.size = 2;
+  term.root = place_sigma * Eigen::Matrix2d::Identity();
+  term.residual = [](const double* const* blocks, double* residual) {
+    residual[0] = blocks[0][0];
+    residual[1] = blocks[0][1];
+    return true;
+  };
+  adjustment.terms.push_back(std::move(term));
+  return slip;
+}
+
 int add_known_ball(Adjustment& adjustment, const Drawing& drawing, const RigUnknowns& unknowns, int frame,
-                   const Bearing& bearing, const Eigen::Vector3d& ball_in_robot) {
-  return add_ball(adjustment, drawing, unknowns, frame, bearing, {},
-                  [ball_in_robot](const double* const*) { return ball_in_robot; });
+                   const Bearing& bearing, const Eigen::Vector3d& ball_in_robot, int slip) {
+  if (slip < 0) {
+    return add_ball(adjustment, drawing, unknowns, frame, bearing, {},
+                    [ball_in_robot](const double* const*) { return ball_in_robot; });
+  }
+  return add_ball(adjustment, drawing, unknowns, frame, bearing, {slip},
+                  [ball_in_robot, sigma = drawing.options.place_sigma](const double* const* blocks) {
+                    const Eigen::Vector3d off(blocks[2][0], blocks[2][1], 0.0);
+                    return Eigen::Vector3d(ball_in_robot + sigma * off);
+                  });
 }
 
 int add_floor_ball(Adjustment& adjustment, const Drawing& drawing, const RigUnknowns& unknowns, int frame,

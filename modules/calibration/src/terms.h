@@ -32,11 +32,15 @@ bool useful_ball(const Bearing& bearing);
 // A goal's edges are of use where nothing hides any part of the goal.
 bool useful_goal(const Bearing& bearing);
 
-// A ball's direction, azimuth and elevation, at a known place in the robot frame or at an unknown one on the floor. The
-// unknown (azimuth, log distance) from the robot's origin keeps far places as tame as near ones. Nothing is added where
-// the bearing lies outside the camera's domain; the term's index otherwise, or −1.
+// By what a written place is off on the floor: an unknown (x, y) in units of `place_sigma`, and the term that says so.
+// −1 where that is 0: such a place is exact.
+int add_slip(Adjustment& adjustment, int frame, double place_sigma);
+
+// A ball's direction, azimuth and elevation, at a known place in the robot frame (with its slip or −1) or at an unknown
+// one on the floor. The unknown (azimuth, log distance) from the robot's origin keeps far places as tame as near ones.
+// Nothing is added where the bearing lies outside the camera's domain; the term's index otherwise, or −1.
 int add_known_ball(Adjustment& adjustment, const Drawing& drawing, const RigUnknowns& unknowns, int frame,
-                   const Bearing& bearing, const Eigen::Vector3d& ball_in_robot);
+                   const Bearing& bearing, const Eigen::Vector3d& ball_in_robot, int slip);
 int add_floor_ball(Adjustment& adjustment, const Drawing& drawing, const RigUnknowns& unknowns, int frame,
                    const Bearing& bearing, int ball);
 Eigen::Vector2d floor_place(const Eigen::VectorXd& ball);  // metres, of its unknown

@@ -32,17 +32,16 @@ std::string on(Level level) {
   return level == Level::bearings ? "On bearings" : "On images";
 }
 
-// By mean distance error, the best first.
+// By mean distance error over the cases that all answered, the best first.
 Cells in_order(const MeasurementSummary& summary, Level level, Knowledge knowledge) {
   Cells cells;
   for (const MeasurementCell& cell : summary.cells) {
-    if (cell.level == level && cell.differences == Differences::all && cell.knowledge == knowledge &&
-        cell.measured > 0) {
+    if (cell.level == level && cell.differences == Differences::all && cell.knowledge == knowledge && cell.common > 0) {
       cells.push_back(&cell);
     }
   }
   std::sort(cells.begin(), cells.end(),
-            [](const auto* a, const auto* b) { return a->distance.mean < b->distance.mean; });
+            [](const auto* a, const auto* b) { return a->common_distance < b->common_distance; });
   return cells;
 }
 
@@ -54,9 +53,13 @@ Finding orders(const MeasurementSummary& summary) {
       if (cells.size() < 2) continue;
       std::string order;
       for (const MeasurementCell* cell : cells) {
-        order += fmt::format("{}{} {}", order.empty() ? "" : ", ", title(*cell), length(cell->distance.mean));
+        order += fmt::format("{}{} {}", order.empty() ? "" : ", ", title(*cell), length(cell->common_distance));
       }
-      finding.sentences.push_back(fmt::format("{}, with {}: {}.", on(level), rig_words(knowledge), order));
+      const int asked = cells.front()->asked;
+      const int common = cells.front()->common;
+      const std::string cases =
+          common < asked ? fmt::format(", over the {} of {} cases that all answered", common, asked) : "";
+      finding.sentences.push_back(fmt::format("{}, with {}{}: {}.", on(level), rig_words(knowledge), cases, order));
     }
   }
   return finding;
@@ -100,12 +103,12 @@ Finding against_vertical(const std::vector<MeasurementRow>& rows) {
     }
     if (ratios.empty()) continue;
     finding.sentences.push_back(fmt::format(
-        "{}, vertical stereo's mean distance error is this much of that of MOVIS by pairs: {}.", on(level), ratios));
+        "{}, vertical stereo's mean distance error, where both answered, is this much of that of MOVIS by pairs: {}.",
+        on(level), ratios));
     if (remarkable.empty() && others.empty()) continue;
     finding.sentences.push_back(
         fmt::format("{}, MOVIS is remarkably better, in that vertical stereo errs half as much again or more and "
-                    "beyond chance: {}. "
-                    "It is not: {}.",
+                    "beyond chance: {}. It is not: {}.",
                     on(level), remarkable.empty() ? "nowhere" : remarkable, others.empty() ? "nowhere" : others));
   }
   return finding;
@@ -157,7 +160,9 @@ Finding costs(const MeasurementSummary& summary) {
     const auto part = [](const MeasurementCell& cell) {
       std::string what = word(cell.differences);
       std::replace(what.begin(), what.end(), '_', ' ');
-      return fmt::format("{} ({} alone)", what, length(cell.distance.mean));
+      const std::string missing =
+          cell.measured < cell.asked ? fmt::format(", over {} of {} cases", cell.measured, cell.asked) : "";
+      return fmt::format("{} ({} alone{})", what, length(cell.distance.mean), missing);
     };
     finding.sentences.push_back(
         fmt::format("{}: {}, then {}; least {}.", system.title, part(*alone[0]), part(*alone[1]), part(*alone.back())));
@@ -192,8 +197,7 @@ Finding cautions(const MeasurementSummary& summary) {
     if (!texts.second.empty()) {
       finding.sentences.push_back(
           fmt::format("{}, few large errors rule the mean of {}: {}. How large they get depends on the angle below "
-                      "which rays count "
-                      "as parallel.",
+                      "which rays count as parallel.",
                       on(key.first), system, texts.second));
     }
   }

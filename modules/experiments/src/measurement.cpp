@@ -5,13 +5,13 @@
 #include <fstream>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
+#include <system_error>
 #include <thread>
 
-#include "bench.h"
+#include "measurement_bench.h"
 #include "measurement_rows.h"
 #include "movis/core/error.h"
 #include "movis/core/output_file.h"
-#include "movis/core/version.h"
 
 namespace movis::experiments {
 namespace {
@@ -23,17 +23,43 @@ int draws_of(const MeasurementSettings& settings, Level level, Differences diffe
   return differences == Differences::all ? settings.bearing_draws : settings.alone_draws;
 }
 
-void check_origin(const StoredRows& stored, const MeasurementSettings& settings, const fs::path& file) {
-  if (stored.lines.empty()) return;
-  if (stored.version != version()) {
-    throw Error("{}: its rows are of movis {}, this is {}; name another folder with --out", file.string(),
-                stored.version, version());
+constexpr std::array kResults{"rows.csv", "summary.json", "index.html"};
+
+void check_regular(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || fs::is_regular_file(file, ignored)) return;
+  throw Error(
+      "{}: is a folder or a device where a file of results should be; remove it, or name another folder with "
+      "--out",
+      file.string());
+}
+
+// What cannot be written must be known before the work, not after it.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw Error("{}: the folder cannot be created: {}; name another with --out", folder.string(), error.message());
   }
-  if (stored.digest != settings.digest) {
-    throw Error(
-        "{}: its rows are of other settings: the experiment's file or one that it names has changed, or --quick "
-        "was given to one run only; name another folder with --out",
-        file.string());
+  for (const char* name : kResults) {
+    check_regular(folder / name);
+    const OutputFile draft(folder / name);  // throws, or leaves nothing behind
+  }
+}
+
+void check_beginning(const fs::path& folder, const MeasurementRun& run) {
+  std::error_code ignored;
+  if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
+    throw Error("{}: is a file; name a folder with --out", folder.string());
+  }
+  const fs::path file = folder / kResults[0];
+  const bool exists = fs::exists(file, ignored);
+  if (exists && !run.resume && fs::is_regular_file(file, ignored)) {
+    throw Error("{}: exists; add --resume to go on with it, or name another folder with --out", file.string());
+  }
+  if (!exists && run.resume) {
+    throw Error("{}: is not there, so nothing can be resumed; leave out --resume, or name the folder with --out",
+                file.string());
   }
 }
 
@@ -60,10 +86,15 @@ class Workers {
   }
 
   void work() {
+    const std::size_t wanted = std::min(static_cast<std::size_t>(std::max(1, run_.jobs)), blocks_.size() - done_);
     std::vector<std::thread> threads;
+    threads.reserve(wanted);
     const int opencv_threads = cv::getNumThreads();
     cv::setNumThreads(1);  // every core measures a block of its own
-    for (int i = 1; i < run_.jobs; ++i) threads.emplace_back([this] { take(); });
+    try {
+      while (threads.size() + 1 < wanted) threads.emplace_back([this] { take(); });
+    } catch (const std::system_error&) {  // the system gives no more: these do the work
+    }
     take();
     for (std::thread& thread : threads) thread.join();
     cv::setNumThreads(opencv_threads);
@@ -84,7 +115,7 @@ class Workers {
   }
 
   void measure(std::size_t i) {
-    Bench bench(settings_, run_.seed, blocks_[i]);
+    MeasurementBench bench(settings_, run_.seed, blocks_[i]);
     std::vector<MeasurementRow> rows;
     for (int point = 0; point < static_cast<int>(bench.lattice().points.size()); ++point) bench.measure(point, rows);
     std::vector<std::string> lines;
@@ -133,21 +164,18 @@ std::vector<MeasurementBlock> blocks_of(const MeasurementSettings& settings) {
 
 std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings, const MeasurementRun& run,
                                             const fs::path& folder) {
-  const fs::path file = folder / "rows.csv";
-  fs::create_directories(folder);
-  const std::vector<MeasurementBlock> blocks = blocks_of(settings);
-  std::vector<std::vector<std::string>> lines(blocks.size());
-  if (fs::exists(file)) {
-    if (!run.resume) {
-      throw Error("{}: exists; add --resume to go on with it, or name another folder with --out", file.string());
-    }
-    const StoredRows stored = read_rows(file);
-    check_origin(stored, settings, file);
+  const fs::path file = folder / kResults[0];
+  check_beginning(folder, run);
+  make_folder(folder);
+  const RowPlan plan(settings);
+  std::vector<std::vector<std::string>> lines(plan.blocks().size());
+  if (run.resume) {
+    const StoredRows stored = read_rows(file, settings, plan);
     if (!stored.lines.empty() && stored.seed != run.seed) {
       throw Error("{}: its rows are of seed {}; go on with --seed {}, or name another folder with --out", file.string(),
                   stored.seed, stored.seed);
     }
-    lines = finished(stored, blocks);
+    lines = finished(stored, plan.blocks());
   }
   {
     OutputFile begin(file);  // without the rows of blocks that are not whole
@@ -157,7 +185,7 @@ std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings,
     }
     begin.commit();
   }
-  Workers(settings, run, blocks, lines, file).work();
+  Workers(settings, run, plan.blocks(), lines, file).work();
 
   std::vector<MeasurementRow> rows;
   OutputFile ordered(file);
@@ -165,7 +193,8 @@ std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings,
   for (const auto& block : lines) {
     for (const std::string& line : block) {
       ordered.stream() << line << '\n';
-      rows.push_back(parse_row(line, file));  // what stands in the file is what is evaluated, resumed or not
+      // What stands in the file is what is evaluated, resumed or not.
+      rows.push_back(parse_row(line, settings, run.seed, plan, file.string()));
     }
   }
   ordered.commit();
@@ -173,27 +202,24 @@ std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings,
 }
 
 ReplayedRow replay_measurement(const MeasurementSettings& settings, std::int64_t row, const fs::path& folder) {
-  const fs::path file = folder / "rows.csv";
-  if (!fs::exists(file)) throw Error("{}: is not there; name the folder of the results with --out", file.string());
-  const StoredRows stored = read_rows(file);
-  check_origin(stored, settings, file);
+  const fs::path file = folder / kResults[0];
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    throw Error("{}: is not there; name the folder of the results with --out", file.string());
+  }
+  check_regular(file);
+  const RowPlan plan(settings);
+  const StoredRows stored = read_rows(file, settings, plan);
   const auto found = stored.lines.find(row);
   if (found == stored.lines.end()) {
     throw Error("{}: has no row {}; it has {} rows, numbered from 0 in the first column", file.string(), row,
                 stored.lines.size());
   }
-  const std::vector<MeasurementBlock> blocks = blocks_of(settings);
-  const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const MeasurementBlock& b) {
-    return row >= b.first_row && row < b.first_row + b.rows;
-  });
-  if (block == blocks.end()) throw Error("{}: row {} is not one of this experiment", file.string(), row);
-  Bench bench(settings, stored.seed, *block);
+  MeasurementBench bench(settings, stored.seed, *plan.block(row));
   std::vector<MeasurementRow> rows;
-  bench.measure(parse_row(found->second, file).point, rows);
-  const auto again = std::find_if(rows.begin(), rows.end(), [&](const MeasurementRow& r) { return r.row == row; });
-  if (again == rows.end())
-    throw Error("{}: row {} does not belong to its point; the file was changed", file.string(), row);
-  return {rows_header(), found->second, line_of(*again, settings, stored.seed)};
+  bench.measure(plan.row(row)->point, rows);
+  const MeasurementRow& again = rows.at(static_cast<std::size_t>(row - rows.front().row));
+  return {rows_header(), found->second, line_of(again, settings, stored.seed)};
 }
 
 }  // namespace movis::experiments

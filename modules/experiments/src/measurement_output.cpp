@@ -38,6 +38,9 @@ Json cell_json(const MeasurementCell& cell) {
           {"measured", cell.measured},
           {"distance_m", statistics_json(cell.distance, 1.0)},
           {"direction_deg", statistics_json(cell.direction, degrees(1.0))},
+          {"common", cell.common},
+          {"common_distance_m", number(cell.common_distance)},
+          {"common_direction_deg", number(degrees(cell.common_direction))},
           {"distance_free_bound_m", number(cell.free_bound.distance)},
           {"direction_free_bound_deg", number(degrees(cell.free_bound.direction))},
           {"distance_bound_m", number(cell.bound.distance)},
@@ -71,6 +74,9 @@ report::MeasurementCell page_cell(const MeasurementCell& cell) {
   const double to_degrees = degrees(1.0);
   shown.distance = page_statistics(cell.distance, 1.0);
   shown.direction_deg = page_statistics(cell.direction, to_degrees);
+  shown.common = cell.common;
+  shown.common_distance = cell.common_distance;
+  shown.common_direction_deg = to_degrees * cell.common_direction;
   shown.distance_free_bound = cell.free_bound.distance;
   shown.distance_bound = cell.bound.distance;
   shown.direction_bound_deg = to_degrees * cell.bound.direction;
@@ -85,8 +91,9 @@ report::MeasurementCell page_cell(const MeasurementCell& cell) {
 }  // namespace
 
 std::string table_of(const MeasurementSummary& summary) {
-  std::string table = fmt::format("  {:<10}{:<31}{:<12}{:>12}{:>10}{:>18}{:>10}{:>10}{:>10}{:>10}\n", "level", "system",
-                                  "rig", "measured", "mean cm", "95 % interval", "median", "95 %", "bound", "dir. °");
+  std::string table =
+      fmt::format("  {:<10}{:<31}{:<12}{:>12}{:>10}{:>18}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "level", "system", "rig",
+                  "measured", "mean cm", "95 % interval", "common", "median", "95 %", "bound", "dir. °");
   const auto text = [](double value, int digits) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("–");
   };
@@ -97,13 +104,15 @@ std::string table_of(const MeasurementSummary& summary) {
         std::isfinite(d.mean_interval.low)
             ? fmt::format("{:.2f} – {:.2f}", 100.0 * d.mean_interval.low, 100.0 * d.mean_interval.high)
             : "–";
-    table += fmt::format("  {:<10}{:<31}{:<12}{:>12}{:>10}{:>18}{:>10}{:>10}{:>10}{:>10}\n", word(cell.level),
+    const double common = cell.common < cell.asked ? cell.common_distance : std::nan("");  // else it is the mean
+    table += fmt::format("  {:<10}{:<31}{:<12}{:>12}{:>10}{:>18}{:>10}{:>10}{:>10}{:>10}{:>10}\n", word(cell.level),
                          kSystems.at(static_cast<std::size_t>(cell.system)).title, word(cell.knowledge),
                          fmt::format("{}/{}", cell.measured, cell.asked), text(100.0 * d.mean, 2), interval,
-                         text(100.0 * d.median, 2), text(100.0 * d.percentile95, 2),
+                         text(100.0 * common, 2), text(100.0 * d.median, 2), text(100.0 * d.percentile95, 2),
                          text(100.0 * cell.bound.distance, 2), text(degrees(cell.direction.mean), 4));
   }
-  return table;
+  return table +
+         "  common: mean over the cases that every system of this level and rig answered, where one left some out\n";
 }
 
 void write_summary(const MeasurementSummary& summary, const std::filesystem::path& file) {

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
+#include "measurement_bench.h"
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
+#include "movis/core/status.h"
 #include "movis/core/version.h"
 
 namespace movis::experiments {
@@ -48,36 +52,101 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+constexpr const char* kMend = "the file was changed: remove it and run again";
+
 template <typename Number>
-Number number_of(const std::string& cell, const fs::path& file) {
+Number number_of(const std::string& cell, const std::string& where) {
   Number value{};
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size()) {
-    throw Error("{}: '{}' stands where a number should; the file was changed: remove it and run again", file.string(),
-                cell);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(static_cast<double>(value))) {
+    throw Error("{}: '{}' stands where a number should; {}", where, cell, kMend);
   }
   return value;
 }
 
-template <typename Values>
-auto value_of(const std::string& cell, const Values& values, const fs::path& file) {
-  for (const auto value : values) {
-    if (cell == word(value)) return value;
-  }
-  throw Error("{}: holds the unknown word '{}'; the file was changed: remove it and run again", file.string(), cell);
+void check_status(const std::string& status, const std::string& where) {
+  constexpr std::array kStatuses{PointStatus::ok,
+                                 PointStatus::not_seen,
+                                 PointStatus::one_camera,
+                                 PointStatus::parallel_rays,
+                                 PointStatus::behind_camera,
+                                 PointStatus::contradiction};
+  if (status == kNotCalibrated) return;
+  if (std::any_of(kStatuses.begin(), kStatuses.end(), [&](PointStatus s) { return status == movis::word(s); })) return;
+  throw Error("{}: there is no status '{}'; {}", where, status, kMend);
 }
 
-// A run that was killed may leave half a line, which nobody misses: its block is measured again.
-void cut_unfinished_line(const fs::path& file) {
+std::vector<std::string> row_cells(const std::string& line, const std::string& where) {
+  std::vector<std::string> cells = cells_of(line);
+  if (cells.size() == kColumns) return cells;
+  throw Error("{}: the row has {} cells instead of {}; {}", where, cells.size(), static_cast<int>(kColumns), kMend);
+}
+
+// Every whole line but the header.
+std::vector<std::string> lines_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(stream), {});
-  stream.close();
-  const std::size_t end = bytes.rfind('\n');
-  const std::size_t whole = end == std::string::npos ? 0 : end + 1;
-  if (whole < bytes.size()) fs::resize_file(file, whole);
+  if (!stream) throw Error("{}: cannot be read; check that it is a file and may be read", file.string());
+  const std::string header = rows_header() + '\n';
+  if (bytes.empty()) return {};
+  if (bytes.compare(0, header.size(), header) != 0) {
+    throw Error("{}:1: is not the header of this experiment's rows; name another folder with --out", file.string());
+  }
+  std::vector<std::string> lines;
+  std::size_t from = header.size();
+  for (std::size_t end = bytes.find('\n', from); end != std::string::npos; end = bytes.find('\n', from)) {
+    lines.push_back(bytes.substr(from, end - from));
+    from = end + 1;
+  }
+  return lines;
+}
+
+void check_origin(const std::vector<std::string>& cells, const MeasurementSettings& settings, const fs::path& file) {
+  if (cells[kVersion] != version()) {
+    throw Error("{}: its rows are of movis {}, this is {}; name another folder with --out", file.string(),
+                cells[kVersion], version());
+  }
+  if (cells[kDigest] != settings.digest) {
+    throw Error(
+        "{}: its rows are of other settings: the experiment's file or one that it names has changed, or --quick "
+        "was given to one run only; name another folder with --out",
+        file.string());
+  }
 }
 
 }  // namespace
+
+RowPlan::RowPlan(const MeasurementSettings& settings) : blocks_(blocks_of(settings)) {
+  for (std::size_t i = 0; i < kDifferences.size(); ++i) lattices_[i] = lattice_of(settings, kDifferences[i]);
+}
+
+const MeasurementBlock* RowPlan::block(std::int64_t number) const {
+  const auto after =
+      std::upper_bound(blocks_.begin(), blocks_.end(), number,
+                       [](std::int64_t sought, const MeasurementBlock& block) { return sought < block.first_row; });
+  if (after == blocks_.begin()) return nullptr;
+  const MeasurementBlock& block = *std::prev(after);
+  return number < block.first_row + block.rows ? &block : nullptr;
+}
+
+std::optional<MeasurementRow> RowPlan::row(std::int64_t number) const {
+  const MeasurementBlock* of = block(number);
+  if (of == nullptr) return std::nullopt;
+  const std::vector<Knowledge> knowledges = knowledges_of(of->differences);
+  const std::vector<int> systems = systems_of(of->rig);
+  const auto in_block = static_cast<std::size_t>(number - of->first_row);
+  const std::size_t point = in_block / (knowledges.size() * systems.size());
+  MeasurementRow row;
+  row.row = number;
+  row.level = of->level;
+  row.differences = of->differences;
+  row.draw = of->draw;
+  row.point = static_cast<int>(point);
+  row.system = systems[in_block % systems.size()];
+  row.knowledge = knowledges[in_block / systems.size() % knowledges.size()];
+  row.place = lattices_.at(static_cast<std::size_t>(of->differences)).points.at(point);
+  return row;
+}
 
 std::string rows_header() {
   return kHeader;
@@ -92,54 +161,43 @@ std::string line_of(const MeasurementRow& row, const MeasurementSettings& settin
   return line + fmt::format("{:.7g},{:.7g}", row.distance_error, degrees(row.direction_error));
 }
 
-MeasurementRow parse_row(const std::string& line, const fs::path& file) {
-  const std::vector<std::string> cells = cells_of(line);
-  if (cells.size() != kColumns) {
-    throw Error("{}: a row has {} cells instead of {}; the file was changed: remove it and run again", file.string(),
-                cells.size(), static_cast<int>(kColumns));
-  }
-  MeasurementRow row;
-  row.row = number_of<std::int64_t>(cells[kRow], file);
-  row.level = value_of(cells[kLevel], kLevels, file);
-  row.differences = value_of(cells[kDifference], kDifferences, file);
-  row.draw = number_of<int>(cells[kDraw], file);
-  row.point = number_of<int>(cells[kPoint], file);
-  row.place = {number_of<double>(cells[kX], file), number_of<double>(cells[kY], file)};
-  row.system = -1;
-  for (std::size_t i = 0; i < kSystems.size(); ++i) {
-    if (cells[kSystem] == kSystems[i].name) row.system = static_cast<int>(i);
-  }
-  if (row.system < 0) throw Error("{}: there is no system '{}'", file.string(), cells[kSystem]);
-  row.knowledge = value_of(cells[kKnowledge], kKnowledges, file);
+MeasurementRow parse_row(const std::string& line, const MeasurementSettings& settings, std::uint64_t seed,
+                         const RowPlan& plan, const std::string& where) {
+  const std::vector<std::string> cells = row_cells(line, where);
+  const auto number = number_of<std::int64_t>(cells[kRow], where);
+  const std::optional<MeasurementRow> planned = plan.row(number);
+  if (!planned) throw Error("{}: this experiment has no row {}; {}", where, number, kMend);
+  MeasurementRow row = *planned;
   row.status = cells[kStatus];
-  if (row.status == "ok") {
-    row.distance_error = number_of<double>(cells[kDistance], file);
-    row.direction_error = radians(number_of<double>(cells[kDirection], file));
+  check_status(row.status, where);
+  if (row.status == movis::word(PointStatus::ok)) {
+    row.distance_error = number_of<double>(cells[kDistance], where);
+    row.direction_error = radians(number_of<double>(cells[kDirection], where));
+  }
+  const std::vector<std::string> expected = cells_of(line_of(row, settings, seed));
+  const std::vector<std::string> columns = cells_of(rows_header());
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    if (cells[i] == expected[i]) continue;
+    throw Error("{}: '{}' stands in column {} where row {} has '{}'; {}", where, cells[i], columns[i], number,
+                expected[i], kMend);
   }
   return row;
 }
 
-StoredRows read_rows(const fs::path& file) {
-  cut_unfinished_line(file);
-  std::ifstream stream(file);
+StoredRows read_rows(const fs::path& file, const MeasurementSettings& settings, const RowPlan& plan) {
   StoredRows stored;
-  std::string line;
-  if (!std::getline(stream, line)) return stored;
-  if (line != kHeader) {
-    throw Error("{}:1: is not the header of this experiment's rows; name another folder with --out", file.string());
-  }
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != kColumns) throw Error("{}: the row '{}' is not complete; remove the file", file.string(), line);
-    const auto seed = number_of<std::uint64_t>(cells[kSeed], file);
+  std::size_t at = 1;
+  for (std::string& line : lines_of(file)) {
+    const std::string where = fmt::format("{}:{}", file.string(), ++at);
+    const std::vector<std::string> cells = row_cells(line, where);
     if (stored.lines.empty()) {
-      stored.version = cells[kVersion];
-      stored.digest = cells[kDigest];
-      stored.seed = seed;
-    } else if (cells[kVersion] != stored.version || cells[kDigest] != stored.digest || seed != stored.seed) {
-      throw Error("{}: holds rows of different runs; remove it and run again", file.string());
+      check_origin(cells, settings, file);
+      stored.seed = number_of<std::uint64_t>(cells[kSeed], where);
     }
-    stored.lines[number_of<std::int64_t>(cells[kRow], file)] = line;
+    const std::int64_t number = parse_row(line, settings, stored.seed, plan, where).row;
+    if (!stored.lines.emplace(number, std::move(line)).second) {
+      throw Error("{}: row {} stands here for the second time; {}", where, number, kMend);
+    }
   }
   return stored;
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "measurement_bench.h"
 #include "movis/core/angle.h"
 #include "movis/core/yaml.h"
 #include "movis/experiments/measurement.h"
@@ -32,7 +33,11 @@ class Digest {
 
 fs::path named_file(const YamlMap& map, const char* key, Digest& digest) {
   fs::path file = map.file().parent_path() / map.text(key);
-  if (!fs::exists(file)) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) {
+    map.fail(key, fmt::format("names {}, which is a folder; name a YAML file", file.string()));
+  }
+  if (!fs::exists(file, ignored)) {
     map.fail(key, fmt::format("names {}, which does not exist; paths are relative to the experiment's folder",
                               file.string()));
   }
@@ -91,12 +96,23 @@ void read_quick(const YamlMap& map, MeasurementSettings& settings) {
   map.read_integer("alone_draws", kDraws, settings.alone_draws);
 }
 
+void check_draws(const YamlMap& map, const MeasurementSettings& settings) {
+  if (settings.bearing_draws + settings.image_draws + settings.alone_draws > 0) return;
+  map.fail("has 0 draws of bearings, of images and of one_difference: nothing to measure; raise one of them");
+}
+
 void check_steps(const YamlMap& map, const MeasurementSettings& settings) {
   for (const double step : {settings.step, settings.alone_step}) {
     const double steps = settings.half_width / step;
     if (std::abs(steps - std::round(steps)) < 1e-9 && steps > 0.5) continue;
     map.fail(fmt::format("a step of {} m does not divide the lattice's half width of {} m; choose one that does", step,
                          settings.half_width));
+  }
+  if (clearance_of(settings) > settings.half_width) {
+    map.fail("lattice",
+             fmt::format("has a half width of {} m, of which the robot, {} m in radius, and a ball beside it "
+                         "cover {} m; raise half_width, or name a smaller robot",
+                         settings.half_width, settings.robot.radius, clearance_of(settings)));
   }
   const double corner = settings.half_width * std::sqrt(2.0) + sim::kBallRadius;
   if (corner > settings.look.hall_half_width * std::sqrt(2.0)) {
@@ -145,6 +161,7 @@ MeasurementSettings read_measurement(const fs::path& file, bool quick) {
     MeasurementSettings checked = settings;  // also where it is not asked for
     read_quick(map.map("quick"), quick ? settings : checked);
   }
+  check_draws(map, settings);
   check_steps(map, settings);
   settings.digest = digest.text();
   return settings;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <set>
 
-#include "bench.h"
 #include "findings.h"
+#include "measurement_bench.h"
 #include "movis/core/random.h"
 #include "movis/sim/scene.h"
 
@@ -160,6 +162,50 @@ MeanBound mean_bound(const MeasurementSettings& settings, const omni::Rig& rig, 
 using Key = std::tuple<Level, Differences, int, Knowledge>;
 using Rows = std::vector<const MeasurementRow*>;
 
+using Case = std::pair<int, int>;  // draw and point
+
+// The cases that every system of the cells answered; one that answered none is not asked.
+std::set<Case> common_cases(const std::vector<const Rows*>& cells) {
+  std::map<Case, std::size_t> answers;
+  std::size_t systems = 0;
+  for (const Rows* rows : cells) {
+    std::size_t measured = 0;
+    for (const MeasurementRow* row : *rows) {
+      if (row->status != "ok") continue;
+      ++answers[{row->draw, row->point}];
+      ++measured;
+    }
+    if (measured > 0) ++systems;
+  }
+  std::set<Case> common;
+  for (const auto& [which, count] : answers) {
+    if (count == systems) common.insert(which);
+  }
+  return common;
+}
+
+void add_common(const std::map<Key, Rows>& rows, MeasurementSummary& summary) {
+  std::map<std::tuple<Level, Differences, Knowledge>, std::vector<const Rows*>> groups;
+  for (const auto& [key, of_key] : rows) {
+    const auto& [level, differences, system, knowledge] = key;
+    groups[{level, differences, knowledge}].push_back(&of_key);
+  }
+  std::map<std::tuple<Level, Differences, Knowledge>, std::set<Case>> common;
+  for (const auto& [group, cells] : groups) common[group] = common_cases(cells);
+  for (MeasurementCell& cell : summary.cells) {
+    const std::set<Case>& cases = common[{cell.level, cell.differences, cell.knowledge}];
+    Sum distance, direction;
+    for (const MeasurementRow* row : rows.at({cell.level, cell.differences, cell.system, cell.knowledge})) {
+      if (row->status != "ok" || cases.count({row->draw, row->point}) == 0) continue;
+      distance.add(std::abs(row->distance_error));
+      direction.add(std::abs(row->direction_error));
+    }
+    cell.common = distance.count;
+    cell.common_distance = distance.mean();
+    cell.common_direction = direction.mean();
+  }
+}
+
 MeasurementCell cell_of(const Key& key, const Rows& rows, const MeasurementSettings& settings) {
   MeasurementCell cell;
   std::tie(cell.level, cell.differences, cell.system, cell.knowledge) = key;
@@ -208,17 +254,21 @@ MeasurementRatio ratio_of(const std::vector<MeasurementRow>& rows, Level level, 
                           Knowledge one_knowledge, const char* other, Knowledge other_knowledge) {
   const int first = system_index(one);
   const int second = system_index(other);
-  std::map<int, std::pair<Sum, Sum>> draws;
+  std::map<Case, std::pair<std::optional<double>, std::optional<double>>> cases;
   for (const MeasurementRow& row : rows) {
     if (row.level != level || row.differences != Differences::all || row.status != "ok") continue;
     const double error = std::abs(row.distance_error);
-    if (row.system == first && row.knowledge == one_knowledge) draws[row.draw].first.add(error);
-    if (row.system == second && row.knowledge == other_knowledge) draws[row.draw].second.add(error);
+    if (row.system == first && row.knowledge == one_knowledge) cases[{row.draw, row.point}].first = error;
+    if (row.system == second && row.knowledge == other_knowledge) cases[{row.draw, row.point}].second = error;
+  }
+  std::map<int, std::pair<Sum, Sum>> draws;
+  for (const auto& [which, errors] : cases) {
+    if (!errors.first || !errors.second) continue;
+    draws[which.first].first.add(*errors.first);
+    draws[which.first].second.add(*errors.second);
   }
   std::vector<std::pair<Sum, Sum>> pairs;
-  for (const auto& [draw, pair] : draws) {
-    if (pair.first.count > 0 && pair.second.count > 0) pairs.push_back(pair);
-  }
+  for (const auto& [draw, pair] : draws) pairs.push_back(pair);
   const auto ratio = [&](const std::vector<std::size_t>& picked) {
     Sum above, below;
     for (const std::size_t i : picked) {
@@ -244,6 +294,7 @@ MeasurementSummary summarize_measurement(const MeasurementSettings& settings, st
     cells[{row.level, row.differences, row.system, row.knowledge}].push_back(&row);
   }
   for (const auto& [key, of_key] : cells) summary.cells.push_back(cell_of(key, of_key, settings));
+  add_common(cells, summary);
   add_bounds(settings, summary);
   summary.findings = findings_of(summary, rows);
   return summary;

@@ -22,7 +22,9 @@ void check(const BoundMapOptions& options) {
     throw Error("a step of {} m cuts {} m into more than {} pieces; give a coarser one", options.step,
                 options.half_width, kMostSteps);
   }
-  if (!std::isfinite(options.height)) throw Error("the ball's height is {} m", options.height);
+  if (!(options.height >= 0.0) || !std::isfinite(options.height)) {
+    throw Error("the height of the ball's centre is {} m; give one of 0 or more", options.height);
+  }
   if (!(options.floor_sigma >= 0.0)) {
     throw Error("the floor's sigma is {} m; give one of 0 or more", options.floor_sigma);
   }
@@ -76,14 +78,21 @@ BoundCell bound_at(const omni::Rig& rig, const Eigen::Vector2d& place, const Bou
   return cell;
 }
 
-std::vector<BoundCell> bound_map(const omni::Rig& rig, const BoundMapOptions& options) {
+int bound_map_rows(const BoundMapOptions& options) {
   check(options);
   constexpr double kRounding = 1e-9;
-  const int steps = static_cast<int>(options.half_width / options.step + kRounding);
+  return 2 * static_cast<int>(options.half_width / options.step + kRounding) + 1;
+}
+
+std::vector<BoundCell> bound_map(const omni::Rig& rig, const BoundMapOptions& options,
+                                 const std::function<void()>& after_each_row) {
+  const int rows = bound_map_rows(options);
+  const int steps = rows / 2;
   std::vector<BoundCell> cells;
-  cells.reserve(static_cast<std::size_t>(2 * steps + 1) * static_cast<std::size_t>(2 * steps + 1));
+  cells.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows));
   for (int j = -steps; j <= steps; ++j) {
     for (int i = -steps; i <= steps; ++i) cells.push_back(bound_at(rig, {i * options.step, j * options.step}, options));
+    if (after_each_row) after_each_row();
   }
   return cells;
 }

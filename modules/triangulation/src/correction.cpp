@@ -1,7 +1,10 @@
 #include "movis/triangulation/correction.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
@@ -10,6 +13,7 @@ namespace movis::triangulation {
 namespace {
 
 constexpr double kSigmaOutside = radians(1.0);  // a unit of tan e
+constexpr double kLeastScale = 0.5;             // of a radius: no correction that can be read comes near it
 
 double square(double value) {
   return value * value;
@@ -48,7 +52,7 @@ void correct(const CameraCorrection& camera, Bearing& bearing) {
   const double elevation_variance = square(camera.elevation_sigma) + outside_variance;
 
   bearing.azimuth = wrap_angle(azimuth + in_azimuth(azimuth, elevation));
-  bearing.elevation += in_elevation(azimuth, elevation);
+  bearing.elevation = std::clamp(bearing.elevation + in_elevation(azimuth, elevation), -0.5 * kPi, 0.5 * kPi);
   bearing.left = wrap_angle(bearing.left + in_azimuth(bearing.left, elevation));
   bearing.right = wrap_angle(bearing.right + in_azimuth(bearing.right, elevation));
   bearing.covariance(0, 0) += azimuth_variance;
@@ -56,14 +60,31 @@ void correct(const CameraCorrection& camera, Bearing& bearing) {
   bearing.left_variance += azimuth_variance;
   bearing.right_variance += azimuth_variance;
   if (bearing.radius <= 0.0) return;
-  const double scale =
-      1.0 + 0.5 * (in_azimuth.by_azimuth(azimuth, elevation) + in_elevation.by_elevation(azimuth, elevation));
+  // Of the azimuthal extent: it is right for a viewpoint that is off, too, where the elevation's derivative is that of
+  // balls at different distances (correction.h).
+  const double scale = std::max(kLeastScale, 1.0 + in_azimuth.by_azimuth(azimuth, elevation) -
+                                                 std::tan(elevation) * in_elevation(azimuth, elevation));
   bearing.radius *= scale;
-  bearing.radius_variance *= scale * scale;
+  // A function of first harmonics has derivatives as large, and as uncertain, as itself.
+  bearing.radius_variance = scale * scale * bearing.radius_variance + square(bearing.radius) * azimuth_variance;
   bearing.radius_covariance *= scale;
 }
 
 }  // namespace
+
+std::string lens_digest(const omni::Camera& camera) {
+  std::string text = fmt::format("{} {} {}", omni::name(camera.model), camera.width, camera.height);
+  const auto add = [&](auto... numbers) { ((text += fmt::format(" {:.9g}", numbers)), ...); };
+  if (const auto* h = std::get_if<omni::Hyperboloid>(&camera.model)) {
+    add(h->a, h->b, h->rim_radius, h->fu, h->fv, h->u0, h->v0);
+  } else {
+    const auto& u = std::get<omni::UnifiedSphere>(camera.model);
+    add(u.xi, u.fu, u.fv, u.u0, u.v0, u.k1, u.k2, u.p1, u.p2, u.skew, u.max_elevation);
+  }
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return fmt::format("{:016x}", hash);
+}
 
 CorrectionBasis azimuth_basis(double azimuth, double elevation) {
   const double sec = 1.0 / std::cos(elevation);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "movis/core/angle.h"
+#include "movis/core/error.h"
 #include "movis/core/names.h"
 #include "movis/core/output_file.h"
 #include "movis/core/yaml.h"
@@ -13,7 +14,8 @@ namespace movis::triangulation {
 namespace {
 
 constexpr const char* kBasis = "harmonics";
-constexpr Range kCoefficient{-90.0, 90.0};  // degrees
+constexpr Range kCoefficient{-1000.0, 1000.0};  // degrees; terms may cancel, and the sum is what is limited
+constexpr double kMost = radians(10.0);         // of what is corrected
 constexpr Range kSigma{0.0, 10.0};
 constexpr Range kElevation{-85.0, 85.0};
 constexpr Range kAngle{-1e4, 1e4};
@@ -35,11 +37,52 @@ std::vector<double> read_coefficients(const YamlMap& map, const char* key, const
   return coefficients;
 }
 
+double sum(const std::vector<double>& coefficients, const CorrectionBasis& basis) {
+  double value = 0.0;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) value += coefficients[i] * basis[static_cast<int>(i)];
+  return value;
+}
+
+// What makes it no correction that can be read, or nothing.
+std::string flaw_of(const CameraCorrection& camera) {
+  constexpr int kAzimuths = 36, kElevations = 8;
+  const auto within = [](double angle, Range range) {
+    return degrees(angle) >= range.min && degrees(angle) <= range.max;
+  };
+  if (!within(camera.min_elevation, kElevation) || !within(camera.max_elevation, kElevation)) {
+    return fmt::format("has elevations_deg [{:.1f}, {:.1f}], beyond ±{}", degrees(camera.min_elevation),
+                       degrees(camera.max_elevation), kElevation.max);
+  }
+  if (!within(camera.azimuth_sigma, kSigma) || !within(camera.elevation_sigma, kSigma)) {
+    return fmt::format("has a sigma above {}°", kSigma.max);
+  }
+  for (const auto* coefficients : {&camera.azimuth, &camera.elevation}) {
+    for (const double coefficient : *coefficients) {
+      if (!within(coefficient, kCoefficient)) {
+        return fmt::format("has the coefficient {:.1f}°, beyond ±{}°", degrees(coefficient), kCoefficient.max);
+      }
+    }
+  }
+  double most = 0.0;
+  for (int i = 0; i < kAzimuths; ++i) {
+    for (int j = 0; j <= kElevations; ++j) {
+      const double azimuth = 2.0 * kPi * i / kAzimuths;
+      const double elevation = camera.min_elevation + (camera.max_elevation - camera.min_elevation) * j / kElevations;
+      most = std::max({most, std::abs(sum(camera.azimuth, azimuth_basis(azimuth, elevation))),
+                       std::abs(sum(camera.elevation, elevation_basis(azimuth, elevation)))});
+    }
+  }
+  if (most <= kMost) return {};
+  return fmt::format("corrects by up to {:.1f}°, more than {:.0f}°, which is no individual difference", degrees(most),
+                     degrees(kMost));
+}
+
 CameraCorrection read_camera(const YamlMap& map) {
-  map.allow({"name", "position", "yaw_deg", "tilt_deg", "elevations_deg", "azimuth_deg", "elevation_deg",
+  map.allow({"name", "lens", "position", "yaw_deg", "tilt_deg", "elevations_deg", "azimuth_deg", "elevation_deg",
              "azimuth_sigma_deg", "elevation_sigma_deg"});
   CameraCorrection camera;
   camera.camera = map.text("name");
+  camera.lens = map.text("lens");
   const std::vector<double> position = map.numbers("position", 3, kPosition);
   camera.position = {position[0], position[1], position[2]};
   camera.yaw = wrap_angle(radians(map.number("yaw_deg", kAngle)));
@@ -54,6 +97,7 @@ CameraCorrection read_camera(const YamlMap& map) {
   camera.elevation = read_coefficients(map, "elevation_deg", kElevationOrders);
   camera.azimuth_sigma = radians(map.number("azimuth_sigma_deg", kSigma));
   camera.elevation_sigma = radians(map.number("elevation_sigma_deg", kSigma));
+  if (const std::string flaw = flaw_of(camera); !flaw.empty()) map.fail(flaw + "; fit it again");
   return camera;
 }
 
@@ -105,6 +149,11 @@ Correction read_correction(const std::filesystem::path& file, const omni::Rig& r
                       "that it was fitted with, or fit it again: movis calibrate correction",
                       camera.camera));
     }
+    if (camera.lens != lens_digest(rig.cameras[index])) {
+      entry.fail("lens", fmt::format("is that of another lens than {} has in the rig; use the rig.yaml that it was "
+                                     "fitted with, or fit it again: movis calibrate correction",
+                                     camera.camera));
+    }
     correction.cameras[index] = std::move(camera);
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -115,14 +164,21 @@ Correction read_correction(const std::filesystem::path& file, const omni::Rig& r
 }
 
 void write_correction(const Correction& correction, const std::filesystem::path& file) {
+  for (const CameraCorrection& camera : correction.cameras) {
+    const std::string flaw = flaw_of(camera);
+    if (flaw.empty()) continue;
+    throw Error("{}: is not written: the correction of {} {}; look at the places and the rig", file.string(),
+                camera.camera, flaw);
+  }
   OutputFile output(file);
   std::ostream& stream = output.stream();
   stream << "# Error correction of the bearings of one rig. The basis stands in docs/files.md.\nbasis: " << kBasis
          << "\ncameras:\n";
   for (const CameraCorrection& camera : correction.cameras) {
-    stream << fmt::format("- name: {}\n  position: [{}, {}, {}]\n  yaw_deg: {}\n  tilt_deg: [{}, {}]\n",
-                          quoted(camera.camera), camera.position.x(), camera.position.y(), camera.position.z(),
-                          in_degrees(camera.yaw), in_degrees(camera.tilt_x), in_degrees(camera.tilt_y));
+    stream << fmt::format("- name: {}\n  lens: '{}'\n  position: [{}, {}, {}]\n  yaw_deg: {}\n  tilt_deg: [{}, {}]\n",
+                          quoted(camera.camera), camera.lens, camera.position.x(), camera.position.y(),
+                          camera.position.z(), in_degrees(camera.yaw), in_degrees(camera.tilt_x),
+                          in_degrees(camera.tilt_y));
     stream << fmt::format("  elevations_deg: [{}, {}]\n", in_degrees(camera.min_elevation),
                           in_degrees(camera.max_elevation));
     stream << fmt::format("  azimuth_deg: [{}]\n  elevation_deg: [{}]\n", list(camera.azimuth), list(camera.elevation));

@@ -56,9 +56,11 @@ std::vector<Piece> outline_of(const omni::Camera& camera, const Axes& axes, doub
   return pieces;
 }
 
-// f₁ and f₀ of a disc. Its picture's derivatives by place and size have, with κ = r²/(2 s²), X = e^−κ I₀(κ) and
-// Y = e^−κ I₁(κ), the squares (C/σ)² π κ Y and (C/σ)² 2π κ X; the ball's level has π r² (1 − X − Y)/σ², and π r C (1 −
-// X)/σ² together with the size (docs/bound.md).
+// f₁ and f₀ of a disc. With κ = r²/(2 s²), X = e^−κ I₀(κ) and Y = e^−κ I₁(κ), its picture's information is (docs/bound.md)
+//   place           (C/σ)² π κ Y
+//   size            (C/σ)² 2π κ X
+//   level           π r² (1 − X − Y)/σ²
+//   size and level  π r C (1 − X)/σ²
 struct FiniteSize {
   double place, size;
 };

@@ -41,7 +41,7 @@ class Mixture {
   void enter(const Candidate& candidate, const JointOptions& options) {
     if (!passes(candidate, options)) return;
     const JointSolution& solution = candidate.solution;
-    const double weight = std::exp(-0.5 * solution.chi2);
+    const double weight = std::exp(-0.5 * (solution.chi2 - solution.dof));
     if (weight > heaviest_) {
       heaviest_ = weight;
       on_floor_ = candidate.reading.on_floor;

@@ -11,21 +11,25 @@ const isWhole = cell => cell.differences === "all";
 const uniqueOf = (cells, key) => [...new Set(cells.map(c => c[key]))];
 
 const RESULT_GROUPS = [
-  {text: "", span: 3}, {text: "Distance / cm", span: 8}, {text: "Direction / °", span: 6}];
-const RESULT_COLUMNS = ["System", "Rig", "measured", "mean", "", "median", "RMS", "95 %", "largest", "free", "bound",
-                        "mean", "", "median", "RMS", "95 %", "bound"];
+  {text: "", span: 3}, {text: "Distance / cm", span: 9}, {text: "Direction / °", span: 7}];
+const RESULT_COLUMNS = ["System", "Rig", "measured", "mean", "", "common", "median", "RMS", "95 %", "largest", "free",
+                        "bound", "mean", "", "common", "median", "RMS", "95 %", "bound"];
 
-function statisticsCells(s, text) {
+// Where a system left cases out, means compare over those that all answered.
+const isPartial = cell => cell.common < cell.asked;
+
+function statisticsCells(s, common, text) {
   return [{text: text(s.mean), name: "mean"}, {text: rangeText(s.low, s.high, text), name: "range"},
-          {text: text(s.median)}, {text: text(s.rms)}, {text: text(s.percentile95)}];
+          {text: common === undefined ? "" : text(common), name: "common"}, {text: text(s.median)}, {text: text(s.rms)}, {text: text(s.percentile95)}];
 }
 
 function resultCells(cell, isFirst) {
   return [{text: isFirst ? cell.system : "", name: "system"}, {text: KNOWLEDGE[cell.knowledge] || cell.knowledge},
           {text: cell.measured === cell.asked ? `all ${cell.asked}` : `${cell.measured} of ${cell.asked}`},
-          ...statisticsCells(cell.distance, cm), {text: cm(cell.distance.largest, 1)}, {text: cm(cell.distance_free_bound)},
+          ...statisticsCells(cell.distance, isPartial(cell) ? cell.common_distance : undefined, cm),
+          {text: cm(cell.distance.largest, 1)}, {text: cm(cell.distance_free_bound)},
           {text: cm(cell.distance_bound)},
-          ...statisticsCells(cell.direction, angle), {text: angle(cell.direction_bound)}];
+          ...statisticsCells(cell.direction, isPartial(cell) ? cell.common_direction : undefined, angle), {text: angle(cell.direction_bound)}];
 }
 
 function drawResults(page) {
@@ -50,6 +54,9 @@ function drawFindings(page) {
   topic.append("ul").attr("class", "findings").selectAll("li").data(d => d.sentences).enter().append("li").text(d => d);
 }
 
+const aloneText = cell =>
+    cm(cell.distance.mean) + (isPartial(cell) ? ` (${cm(cell.common_distance)} of ${cell.common}/${cell.asked})` : "");
+
 // One row a system, one column a kind of difference.
 function drawAlone(page) {
   const cells = page.cells.filter(c => !isWhole(c));
@@ -63,7 +70,7 @@ function drawAlone(page) {
     row.append("td").text(system);
     for (const kind of kinds) {
       const cell = cells.find(c => c.system === system && c.differences === kind);
-      row.append("td").text(cell ? cm(cell.distance.mean) : "–");
+      row.append("td").text(cell ? aloneText(cell) : "–");
     }
   }
 }

@@ -17,15 +17,18 @@ namespace movis::calibration {
 // direction (φ, e) in the robot's axes. With the ball's centre at b and the camera's viewpoint at c(δ)
 //   r = Σ^(−1/2) (φ(p, δ) − azimuth(b − c(δ)),  e(p, δ) − elevation(b − c(δ)) − ε)
 // Σ is the bearing's covariance with the floors below added; ε is a bias that all balls' elevations share, because
-// shading moves a ball's outline. Minimized is Σ r² + Σ (δ/σ_prior)² + (ε/σ_ε)², by Levenberg and Marquardt, first
-// under Cauchy's loss with a falling scale, so that up to about a third of wrong sightings do no harm, then without
-// those. Bearings that the own body or the picture's border cuts are left out.
+// shading moves a ball's outline. A known place w was measured by somebody: b = w + σ_place (s_x, s_y, 0), where s is a
+// nuisance of each frame. Minimized is Σ r² + Σ s² + Σ (δ/σ_prior)² + (ε/σ_ε)², by Levenberg and Marquardt, first under
+// Cauchy's loss with a falling scale, so that up to about a third of wrong sightings do no harm, then without those.
+// A place is wrong where the bearings have the ball more than five sigmas of place and bearings from it. Bearings that
+// the own body or the picture's border cuts are left out.
 //
 // Bearings depend slightly on the rig with which they were found: calibrate, scan again with the result, and calibrate
 // once more around the same nominal rig.
 struct RigOptions {
   omni::Deviation prior = omni::individual_differences();  // sigma, around the nominal rig
-  double azimuth_floor_deg = 0.005;                        // of a ball's direction, beside the bearing's own covariance
+  double place_sigma = 0.002;        // of a known place, x and y each, metres: how exactly it was measured; 0: exact
+  double azimuth_floor_deg = 0.005;  // of a ball's direction, beside the bearing's own covariance
   double elevation_floor_deg = 0.02;
   double elevation_bias_deg = 0.05;  // sigma of what all balls' elevations share
   double edge_floor_deg = 0.03;      // of a goal's edge
@@ -48,8 +51,9 @@ struct RigCalibration {
   std::vector<omni::Deviation> deviation;  // from the nominal rig, by camera
   std::vector<omni::Deviation> sigma;      // of each parameter: what the data and the prior leave
   std::vector<RejectedSighting> rejected;
-  double azimuth_rms = 0.0, elevation_rms = 0.0;            // of the balls' residuals that were used, radians
-  double edge_rms = 0.0;                                    // of the goals' edges that were used, radians; 0: none
+  double azimuth_rms = 0.0, elevation_rms = 0.0;  // of the balls' residuals that were used, radians
+  double edge_rms = 0.0;                          // of the goals' edges that were used, radians; 0: none
+  double place_rms = 0.0;  // by what the known places of used balls were off, x and y each, metres; 0: none
   double elevation_bias = 0.0, elevation_bias_sigma = 0.0;  // how much higher than they are balls appear, radians
   int balls = 0, goals = 0;                                 // frames whose ball, whose goals were used
   omni::Deviation prior;                                    // sigma

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -33,7 +34,8 @@ struct Sightings {
 // The known places of a data set's balls, by frame: here they are what somebody measured out for the calibration.
 using KnownPlaces = std::map<std::int64_t, Eigen::Vector3d>;  // robot frame, metres
 
-KnownPlaces known_places(const std::map<std::int64_t, grab::Truth>& truth);
+// Of `file`, which errors name. Throws an Error where a ball's centre is below 2 cm, or farther than 30 m away.
+KnownPlaces known_places(const std::map<std::int64_t, grab::Truth>& truth, const std::filesystem::path& file);
 
 // One scanner for each camera of a rig that is believed.
 class SightingScanner {

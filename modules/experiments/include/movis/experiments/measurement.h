@@ -66,7 +66,7 @@ inline constexpr std::array<MeasurementSystem, 8> kSystems{{
     {"movis-joint", "MOVIS, jointly", kMovisRig},
 }};
 
-// The experiment file. Numbers of draws may be 0: that part is left out.
+// The experiment file. Numbers of draws may be 0, though not all: that part is left out.
 struct MeasurementSettings {
   std::string name;                   // the file's, without its extension
   std::array<omni::Rig, kRigs> rigs;  // as drawn
@@ -130,12 +130,14 @@ struct MeasurementRun {
 };
 
 // Measures and writes `folder`/rows.csv, where the rows of every finished block stand at once; in the end they are in
-// order. Throws an Error where rows.csv exists and is not to be resumed, or is of other settings, another seed or
-// another version.
+// order. Throws an Error, before it measures and with rows.csv as it was, where the folder or one of rows.csv,
+// summary.json and index.html in it cannot be written; where rows.csv exists and is not to be resumed, or is to be
+// resumed and does not exist, is of other settings, another seed or another version, or holds a row that is not one of
+// this experiment.
 std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings, const MeasurementRun& run,
                                             const std::filesystem::path& folder);
 
-// A row of `folder`/rows.csv as it stands there, and recomputed.
+// A row of `folder`/rows.csv as it stands there, and recomputed. Writes nothing.
 struct ReplayedRow {
   std::string header, stored, recomputed;  // lines of CSV
 };

@@ -35,6 +35,11 @@ struct MeasurementCell {
   int measured = 0;
   ErrorStatistics distance;   // metres
   ErrorStatistics direction;  // radians
+  // Systems answer different cases, a draw's points, and what one leaves out may be what is hard. These cases were
+  // answered by every system of this level, these differences and this knowledge that answered any.
+  int common = 0;
+  double common_distance = 0.0;   // mean magnitude over them, metres; NaN: there are none
+  double common_direction = 0.0;  // radians
   // Mean magnitude that no unbiased estimator betters with this rig exactly known, on level `bearings`: by azimuths and
   // elevations alone, which a single camera cannot, and with the diameter and the floor too. NaN: there is none.
   MeanBound free_bound, bound;
@@ -44,7 +49,7 @@ struct MeasurementCell {
   std::vector<double> first_direction;
 };
 
-// How much larger one system's mean distance error is than another's, over the draws that both have.
+// How much larger one system's mean distance error is than another's, over the points of a draw that both answered.
 struct MeasurementRatio {
   double ratio = 0.0;
   Interval interval;  // 95 %, bootstrap over draws, paired

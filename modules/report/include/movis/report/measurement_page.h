@@ -24,6 +24,9 @@ struct MeasurementCell {
   int measured = 0;
   MeasurementStatistics distance;
   MeasurementStatistics direction_deg;
+  int common = 0;                // cases that every system of the same level, differences and knowledge answered
+  double common_distance = 0.0;  // mean magnitude over them
+  double common_direction_deg = 0.0;
   double distance_free_bound = 0.0;  // of the mean magnitude, by azimuths and elevations alone
   double distance_bound = 0.0;       // by all that the cameras tell
   double direction_bound_deg = 0.0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "movis/triangulation/cramer_rao.h"
@@ -14,7 +15,7 @@ struct BoundMapOptions {
   double half_width = 4.0;    // metres; the floor is a square around the robot
   double step = 0.25;         // metres
   double ball_radius = 0.11;  // metres
-  double height = 0.11;       // of the ball's centre, metres
+  double height = 0.11;       // of the ball's centre above the floor, metres
   double floor_sigma = 0.0;   // of that height where it is known, metres; 0: exactly
   bool diameter = false;      // the ball's apparent size tells its distance too
 };
@@ -42,8 +43,13 @@ BoundCell bound_at(const omni::Rig& rig, const Eigen::Vector2d& place, const Bou
 
 // Row by row, y ascending, then x: (2n + 1)² cells around the origin with n = half_width/step, rounded down. The
 // robot's own place is not observable: it has no direction. An Error where the options make no sense: a step that is
-// not above 0, wider than half_width or finer than a five-hundredth of it, a radius, contrast, noise not above 0.
-std::vector<BoundCell> bound_map(const omni::Rig& rig, const BoundMapOptions& options);
+// not above 0, wider than half_width or finer than a five-hundredth of it, a negative height, a radius, contrast, noise
+// not above 0. `after_each_row` is called after every row: for progress, and to end the work by an exception.
+std::vector<BoundCell> bound_map(const omni::Rig& rig, const BoundMapOptions& options,
+                                 const std::function<void()>& after_each_row = {});
+
+// Of that map: 2n + 1. The same Error where half width, step, height or floor_sigma make no sense.
+int bound_map_rows(const BoundMapOptions& options);
 
 // All around the robot at one distance, at the azimuths 2π (i + ½)/directions.
 std::vector<BoundCell> bound_ring(const omni::Rig& rig, double distance, int directions,

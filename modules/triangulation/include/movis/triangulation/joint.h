@@ -32,8 +32,9 @@ namespace movis::triangulation {
 //   2. all cameras, in the air (its centre above the floor plane, that is); or on the floor, without one camera
 //   3. in the air, without one camera; or on the floor, without two; and so on
 // without one being: without each of them. Readings of one line that pass share the estimate: it is the mean of their
-// mixture, weighted by exp(−χ²/2), with its covariance, so that a doubt about which camera is wrong shows there. A
-// reading that leaves cameras out must have two degrees of freedom left to pass.
+// mixture, weighted by exp(−(χ² − dof)/2), with its covariance, so that a doubt about which camera is wrong shows
+// there: χ² is dof on average where a reading is true, and a reading of fewer data must not gain by that. A reading
+// that leaves cameras out must have two degrees of freedom left to pass.
 //
 // If none passes, covariances were too small, or the rig is not the real one. Then the point of all cameras, on the
 // floor or else in the air, is taken if its largest residual is below `contradiction_deg`, its covariance multiplied by

@@ -11,12 +11,14 @@
 
 namespace movis::experiments {
 
+inline constexpr const char* kNotCalibrated = "not_calibrated";  // the status where nothing could be fitted
+
 // One rig of one draw on the bench: its true cameras, and what is known of them. The draw's cameras and the noise at a
 // place follow from the seed, the draw and the place alone, so that rigs are compared with the same numbers: cameras of
 // the same number differ from their drawings alike, and have the same noise.
-class Bench {
+class MeasurementBench {
  public:
-  Bench(const MeasurementSettings& settings, std::uint64_t seed, const MeasurementBlock& block);
+  MeasurementBench(const MeasurementSettings& settings, std::uint64_t seed, const MeasurementBlock& block);
 
   const Lattice& lattice() const { return lattice_; }
 
@@ -50,5 +52,8 @@ class Bench {
 // Of a block: which knowledges, and which systems are of its rig.
 std::vector<Knowledge> knowledges_of(Differences differences);
 std::vector<int> systems_of(RigIndex rig);
+
+// How far from the origin the robot and the ball beside it reach, metres.
+double clearance_of(const MeasurementSettings& settings);
 
 }  // namespace movis::experiments

@@ -1,4 +1,4 @@
-#include "calibrate_command.h"
+#include "calibrate_rig.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "movis/core/paths.h"
 #include "movis/grab/dataset.h"
 #include "movis/grab/truth.h"
+#include "outputs.h"
 #include "progress.h"
 #include "rig_table.h"
 
@@ -33,32 +34,13 @@ Options read_options(const fs::path& file) {
   return options;
 }
 
-// The recording is worth more than what is made of it.
-void refuse_to_overwrite_input(const CalibrateRigArguments& arguments, const grab::Dataset& dataset) {
-  std::vector<fs::path> inputs{dataset.rig_file, dataset.folder / "frames.csv", dataset.folder / "truth.csv",
-                               dataset.folder / "field.yaml"};
-  for (const auto& file : {arguments.field, arguments.colours, arguments.options}) {
-    if (file) inputs.push_back(*file);
-  }
-  for (const omni::Camera& camera : dataset.rig.cameras) inputs.push_back(camera.mask);
-  for (const grab::DatasetFrame& frame : dataset.frames) {
-    for (const grab::DatasetImage& image : frame.images) inputs.push_back(image.file);
-  }
-  std::error_code ignored;
-  for (const fs::path& input : inputs) {
-    if (input.empty() || !fs::equivalent(arguments.out, input, ignored)) continue;
-    throw Error("--out {}: is the input file {}; name another file", arguments.out.string(), input.string());
-  }
-}
-
 Field find_field(const CalibrateRigArguments& arguments, const grab::Dataset& dataset) {
   if (arguments.field) return read_field(*arguments.field);
   if (dataset.field_file) return read_field(*dataset.field_file);
   throw Error(
-      "{}: without truth.csv a calibration needs the goals of a known field; name its file by --field, or put the "
-      "balls' "
-      "places into truth.csv",
-      dataset.folder.string());
+      "{}: a self-calibration needs the goals of a known field; name its file by --field, or {} to calibrate from balls "
+      "at known places",
+      dataset.folder.string(), arguments.self ? "leave --self out" : "add a truth.csv");
 }
 
 // What is seen depends slightly on the rig that is believed: so everything happens twice, the second time seen through
@@ -94,12 +76,18 @@ void calibrate_rig(const CalibrateRigArguments& arguments) {
   const grab::Dataset dataset = grab::read_dataset(arguments.data, arguments.rig);
   const fs::path truth_file = arguments.data / "truth.csv";
   const bool self = arguments.self || !fs::exists(truth_file);
+  if (arguments.field && !self) {
+    throw Error("--field {}: balls at the known places of {} calibrate without a field; add --self, or leave it out",
+                arguments.field->string(), truth_file.string());
+  }
   const calibration::KnownPlaces places =
-      self ? calibration::KnownPlaces{} : calibration::known_places(grab::read_truth(truth_file));
+      self ? calibration::KnownPlaces{} : calibration::known_places(grab::read_truth(truth_file), truth_file);
   const std::optional<Field> field =
       self ? std::optional<Field>(find_field(arguments, dataset)) : std::optional<Field>();
-  const Options options = arguments.options ? read_options(*arguments.options) : Options{};
-  refuse_to_overwrite_input(arguments, dataset);
+  Options options = arguments.options ? read_options(*arguments.options) : Options{};
+  if (arguments.place_sigma) options.calibration.place_sigma = *arguments.place_sigma;
+  refuse_to_overwrite({{"--out", arguments.out}}, files_of(dataset),
+                      {arguments.field, arguments.colours, arguments.options});
 
   const calibration::RigCalibration result = calibrate_twice(dataset, arguments, places, options, field);
   const std::string done = what_was_done(result, self, dataset.frames.size());

@@ -1,4 +1,4 @@
-#include "bench.h"
+#include "measurement_bench.h"
 
 #include <cmath>
 
@@ -32,23 +32,27 @@ omni::Deviation only(Differences differences, const omni::Deviation& sigma) {
   return kept;
 }
 
-double clearance(const MeasurementSettings& settings) {
-  return settings.robot.radius + sim::kBallRadius;
-}
-
 // Balls at known places: evenly over the lattice's square, beside the robot.
 std::vector<Vector2d> calibration_places(const MeasurementSettings& settings, RandomStream& random) {
   std::uniform_real_distribution<double> along(-settings.half_width, settings.half_width);
+  const auto wanted = static_cast<std::size_t>(settings.calibration_points);
+  constexpr std::size_t kTries = 1000;  // for each; of a robot within the square one in five is beside it
   std::vector<Vector2d> places;
-  while (static_cast<int>(places.size()) < settings.calibration_points) {
+  for (std::size_t i = 0; i < kTries * wanted && places.size() < wanted; ++i) {
     const double x = along(random);
     const Vector2d place(x, along(random));
-    if (place.norm() > clearance(settings)) places.push_back(place);
+    if (place.norm() > clearance_of(settings)) places.push_back(place);
   }
-  return places;
+  if (places.size() == wanted) return places;
+  throw Error("the robot, {} m in radius, covers the lattice of half width {} m: no place is left for a ball",
+              settings.robot.radius, settings.half_width);
 }
 
 }  // namespace
+
+double clearance_of(const MeasurementSettings& settings) {
+  return settings.robot.radius + sim::kBallRadius;
+}
 
 std::vector<Knowledge> knowledges_of(Differences differences) {
   if (differences != Differences::all) return {Knowledge::nominal};
@@ -70,7 +74,7 @@ Lattice lattice_of(const MeasurementSettings& settings, Differences differences)
   for (int row = -half; row <= half; ++row) {
     for (int column = -half; column <= half; ++column) {
       const Vector2d point(step * column, step * row);
-      if (point.norm() < clearance(settings)) {
+      if (point.norm() < clearance_of(settings)) {
         ++lattice.under_robot;
       } else {
         lattice.points.push_back(point);
@@ -80,7 +84,8 @@ Lattice lattice_of(const MeasurementSettings& settings, Differences differences)
   return lattice;
 }
 
-Bench::Bench(const MeasurementSettings& settings, std::uint64_t seed, const MeasurementBlock& block)
+MeasurementBench::MeasurementBench(const MeasurementSettings& settings, std::uint64_t seed,
+                                   const MeasurementBlock& block)
     : settings_(settings),
       seed_(seed),
       block_(block),
@@ -97,11 +102,11 @@ Bench::Bench(const MeasurementSettings& settings, std::uint64_t seed, const Meas
   beliefs_.push_back({Knowledge::true_rig, eyes_->believe(truth), truth, {}});
 }
 
-std::uint64_t Bench::noise_seed(std::uint64_t place) const {
+std::uint64_t MeasurementBench::noise_seed(std::uint64_t place) const {
   return make_stream(seed_, kNoiseStream + static_cast<std::uint64_t>(block_.draw) * kPlaces + place)();
 }
 
-calibration::Sightings Bench::sightings_by(int believed, const omni::Rig& rig) {
+calibration::Sightings MeasurementBench::sightings_by(int believed, const omni::Rig& rig) {
   RandomStream random = make_stream(seed_, kCalibrationStream + static_cast<std::uint64_t>(block_.draw));
   calibration::Sightings sightings{rig, {}};
   std::uint64_t place = kFirstCalibrationPlace;
@@ -116,7 +121,7 @@ calibration::Sightings Bench::sightings_by(int believed, const omni::Rig& rig) {
   return sightings;
 }
 
-Bench::Belief Bench::corrected(const calibration::Sightings& sightings) const {
+MeasurementBench::Belief MeasurementBench::corrected(const calibration::Sightings& sightings) const {
   Belief belief{Knowledge::corrected, beliefs_[0].eyes, nominal_, {}};
   try {
     belief.correction = calibration::fit_correction(sightings).correction;
@@ -127,7 +132,7 @@ Bench::Belief Bench::corrected(const calibration::Sightings& sightings) const {
 }
 
 // What the scan finds depends slightly on the rig with which it looks: once more with the first result.
-Bench::Belief Bench::calibrated(const calibration::Sightings& sightings) {
+MeasurementBench::Belief MeasurementBench::calibrated(const calibration::Sightings& sightings) {
   Belief belief{Knowledge::calibrated, beliefs_[0].eyes, nominal_, {}};
   try {
     belief.rig = calibration::calibrate_rig(nominal_, sightings).rig;
@@ -142,7 +147,7 @@ Bench::Belief Bench::calibrated(const calibration::Sightings& sightings) {
   return belief;
 }
 
-void Bench::measure(int point, std::vector<MeasurementRow>& rows) {
+void MeasurementBench::measure(int point, std::vector<MeasurementRow>& rows) {
   const Vector2d& ball = lattice_.points.at(static_cast<std::size_t>(point));
   const std::vector<int> systems = systems_of(block_.rig);
   eyes_->look_at(ball, noise_seed(static_cast<std::uint64_t>(point)));
@@ -154,7 +159,7 @@ void Bench::measure(int point, std::vector<MeasurementRow>& rows) {
     if (belief.correction) triangulation::correct(*belief.correction, bearings_);
     for (const int system : systems) {
       MeasurementRow row{number++,         block_.level, block_.differences, block_.draw, point, system,
-                         belief.knowledge, ball,         "not_calibrated"};
+                         belief.knowledge, ball,         kNotCalibrated};
       if (belief.known) {
         const PointEstimate measured = estimator_of(system)(belief.rig, bearings_);
         row.status = movis::word(measured.status);

@@ -9,7 +9,8 @@ struct CalibrateRigArguments {
   std::filesystem::path data;
   std::filesystem::path out;
   std::optional<std::filesystem::path> rig, field, colours, options;
-  bool self = false;  // even where truth.csv knows the balls' places
+  std::optional<double> place_sigma;  // metres; goes before the options'
+  bool self = false;                  // even where truth.csv knows the balls' places
 };
 
 // `movis calibrate rig`: the individual differences of a rig's cameras, from balls at the known places of the data
