@@ -14,7 +14,8 @@ namespace movis::experiments {
 
 struct MatchOptions {
   std::string localizer = "composed";
-  std::string triangulation{triangulation::kDefaultTriangulator};
+  std::string triangulation =
+      "pairs";  // jointly goals near the robot are more often given up: it stands, and no pose comes
   pipeline::Options pipeline;
   std::function<void()> every_tick;  // called in every tick, if given; may throw to end the episode
 };
