@@ -14,8 +14,7 @@ namespace movis::experiments {
 
 struct MatchOptions {
   std::string localizer = "composed";
-  std::string triangulation =
-      "pairs";  // jointly goals near the robot are more often given up: it stands, and no pose comes
+  std::string triangulation = "pairs";  // joint gives up goals beside the robot more often, and then no pose comes
   pipeline::Options pipeline;
   std::function<void()> every_tick;  // called in every tick, if given; may throw to end the episode
 };
