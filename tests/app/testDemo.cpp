@@ -65,7 +65,7 @@ TEST(Demo, SameSeedSameRowsOnAnyNumberOfCores) {
 TEST(Demo, SignalEndsItInTheMiddleOfAnEpisode) {
   const test::TemporaryFolder folder;
   const auto scenario =
-      short_scenario(folder, "duration_s: 3600\nstart: {robot: [0, 1.95, 0]}\n");  // in the goal: no pose
+      short_scenario(folder, "duration_s: 3600\nstart: {robot: [0, -1.9, 180]}\n");  // in the goal: no pose
   const auto page = folder.path() / "demo.html";
   const test::ProgramRun run =
       test::run_program("timeout --signal=INT --kill-after=20 8 " + kProgram + " demo --episodes 1 --scenario " +
