@@ -36,7 +36,7 @@ struct Frame {
     across = {-sa, ca, 0.0};
   }
 
-  double inside(const Sample& sample) const {  // d, pixels
+  double inside_of(const Sample& sample) const {  // d, pixels
     return (axis.dot(sample.ray) - cos_radius) / sample.gradient;
   }
   Eigen::Vector2d disc(const Sample& sample) const {  // across and up, in units of the disc's radius
@@ -83,7 +83,7 @@ std::optional<double> collect_border(const ImageView& image, const PolarMap& map
       const double gradient = std::max(std::hypot(by_u, by_v), kLeast * frame.sin_radius * pixel);
       if (std::abs(slack) > kReach * gradient || border.size() == border.capacity()) continue;
       const Light light = light_at(image, u, v);
-      border.push_back({ray, {light.r, light.g, light.b}, gradient, 0});
+      border.push_back({ray, {light.r, light.g, light.b}, gradient, 0.0, 0});
       solid_angle += own;
     }
   }
@@ -110,7 +110,7 @@ std::optional<Shading> fit_shading(const Frame& frame, const std::vector<Sample>
   Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
   int count = 0;
   for (const Sample& sample : border) {
-    if (frame.inside(sample) <= kPure || is_black(sample)) continue;
+    if (sample.inside <= kPure || is_black(sample)) continue;
     const Vector4d base = Shading::base(frame.disc(sample));
     normal += base * base.transpose();
     right += base * sample.light.transpose();
@@ -122,7 +122,7 @@ std::optional<Shading> fit_shading(const Frame& frame, const std::vector<Sample>
   Shading shading;
   shading.coefficients = normal.ldlt().solve(right);
   for (const Sample& sample : border) {
-    if (frame.inside(sample) <= kPure || is_black(sample)) continue;
+    if (sample.inside <= kPure || is_black(sample)) continue;
     shading.noise += (sample.light - shading.at(frame.disc(sample))).cwiseAbs2();
   }
   shading.noise = (shading.noise / std::max(1, count - 4)).array() + kLeastNoise;
@@ -171,7 +171,7 @@ void describe_sectors(const Frame& frame, const Shading& shading, double radius_
   }
   for (Sample& sample : border) {
     sample.sector = outline.sector_of(frame.disc(sample));
-    if (frame.inside(sample) >= -kPure) continue;
+    if (sample.inside >= -kPure) continue;
     Sector& sector = outline.sectors[sample.sector];
     sector.outside += sample.light;
     sector.scatter += sample.light * sample.light.transpose();
@@ -218,7 +218,7 @@ Sums sum_residuals(const Frame& frame, double width, const std::vector<Sample>& 
   for (const Sample& sample : border) {
     Sector& sector = outline.sectors[sample.sector];
     if (!sector.used) continue;
-    const double inside = frame.inside(sample);
+    const double inside = sample.inside;
     if (std::abs(inside) > kMixed) continue;
     const double x = inside / width;
     const double share = sector.projection.dot(sample.light - sector.outside);
@@ -281,6 +281,7 @@ std::optional<BallCone> fit_silhouette(const ImageView& image, const PolarMap& m
   double width = kWidth;
   for (int round = 0;; ++round) {
     const Frame frame(cone);
+    for (Sample& sample : border) sample.inside = frame.inside_of(sample);
     if (round % kDescribedEvery == 0) {
       const auto shading = fit_shading(frame, border);
       if (!shading) return std::nullopt;

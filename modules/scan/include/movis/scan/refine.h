@@ -64,6 +64,7 @@ struct RefineScratch {
   struct BorderSample {
     Eigen::Vector3d ray, light;  // linear red, green, blue
     double gradient;             // change of the ray's cosine to the ball's centre over one pixel
+    double inside;               // pixels inside of the outline, by the cone of this round
     int sector;                  // of the outline
   };
   std::vector<BorderSample> border;
