@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "evaluation.h"
 #include "interrupt.h"
 #include "movis/core/error.h"
+#include "movis/core/median.h"
 #include "movis/core/paths.h"
 #include "movis/core/version.h"
 #include "movis/grab/dataset_source.h"
@@ -40,12 +40,6 @@ pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Da
                               triangulation::find_triangulator(arguments.triangulation));
   if (arguments.correction) pipeline.correction = triangulation::read_correction(*arguments.correction, dataset.rig);
   return pipeline;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // How often each status came, most frequent words first to read: "ok 26, one_goal 1".

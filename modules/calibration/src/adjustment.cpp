@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "movis/core/error.h"
+#include "movis/core/median.h"
 
 namespace movis::calibration {
 namespace {
@@ -187,10 +189,8 @@ double spread(const Adjustment& adjustment, TermKind kind, double most) {
     size = term.size;
   }
   if (lengths.empty()) return 1.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
   const double expected = size == 1 ? 0.6745 : 1.1774;  // median of the length of 1 or 2 normal numbers
-  return std::clamp(*middle / expected, 1.0, most);
+  return std::clamp(median(std::move(lengths)) / expected, 1.0, most);
 }
 
 double unit_weight_error(const Adjustment& adjustment) {

@@ -9,7 +9,9 @@
 #include "correction_limits.h"
 #include "correction_points.h"
 #include "movis/core/angle.h"
+#include "movis/core/chi2.h"
 #include "movis/core/error.h"
+#include "movis/core/median.h"
 #include "movis/core/random.h"
 
 namespace movis::calibration {
@@ -179,12 +181,6 @@ std::vector<bool> contradicting(const std::vector<Misfit>& misfits, const Scatte
   return result;
 }
 
-// The χ² of so many degrees of freedom that is as rare as so many sigmas (E. B. Wilson, M. M. Hilferty, PNAS 17, 1931).
-double largest_chi_square(double freedom, double sigmas) {
-  const double ninth = 2.0 / (9.0 * freedom);
-  return freedom * std::pow(1.0 - ninth + sigmas * std::sqrt(ninth), 3);
-}
-
 // Frames of which two cameras contradict, or all that see the ball, or the others taken together.
 std::set<int> contradicting_frames(const std::vector<CorrectionPoint>& points, const std::vector<Misfit>& misfits,
                                    const Scatter& scatter, const std::vector<bool>& bad) {
@@ -208,7 +204,7 @@ std::set<int> contradicting_frames(const std::vector<CorrectionPoint>& points, c
   std::set<int> result;
   for (const auto& [index, frame] : frames) {
     const double sigmas = frame.bad > 0 ? kSigmasOfOthers : kSigmas;
-    if (frame.bad >= 2 || frame.good == 0 || frame.chi_square > largest_chi_square(2.0 * frame.good, sigmas)) {
+    if (frame.bad >= 2 || frame.good == 0 || frame.chi_square > chi2_limit(2 * frame.good, sigmas)) {
       result.insert(index);
     }
   }

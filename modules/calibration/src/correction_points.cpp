@@ -7,6 +7,7 @@
 
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
+#include "movis/core/median.h"
 
 namespace movis::calibration {
 namespace {
@@ -24,13 +25,6 @@ double azimuth_of(const Eigen::Vector3d& offset) {
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<CorrectionPoint> correction_points(const Sightings& sightings, double place_sigma) {
   constexpr int kUnusable = kCutByBody | kCutByDomain | kCutByObject;

@@ -18,8 +18,6 @@ struct CorrectionPoint {
   double azimuth_of_place = 0.0, elevation_of_place = 0.0;  // sigmas, radians: the part of the place's error
 };
 
-double median(std::vector<double> values);  // 0 of none
-
 // Of every bearing of a ball at a known place. Those that the own body, the picture's border or another object cut are
 // left out; those near another sensor unit count with three times their standard deviation. `place_sigma`, metres, is
 // added to the variances.

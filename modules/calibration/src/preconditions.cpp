@@ -6,9 +6,9 @@
 #include <numeric>
 #include <optional>
 
-#include "correction_points.h"
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
+#include "movis/core/median.h"
 #include "planar_rays.h"
 
 namespace movis::calibration {

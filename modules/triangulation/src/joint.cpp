@@ -4,8 +4,8 @@
 #include <bitset>
 #include <cmath>
 
-#include "chi2.h"
 #include "movis/core/angle.h"
+#include "movis/core/chi2.h"
 #include "sights.h"
 
 namespace movis::triangulation {

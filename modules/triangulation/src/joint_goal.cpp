@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "chi2.h"
 #include "movis/core/angle.h"
+#include "movis/core/chi2.h"
 #include "sights.h"
 
 // A goal's edges are upright, so only azimuths count: its landmarks are points of the floor plane.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace movis::triangulation {
+namespace movis {
 
 // The value that χ² of so many degrees of freedom exceeds as rarely as a normal variable exceeds `sigmas`, after Wilson
 // and Hilferty, Proc. Nat. Acad. Sci. 17 (1931) 684: ∛(χ²/dof) is nearly normal.
@@ -12,4 +12,4 @@ inline double chi2_limit(int dof, double sigmas) {
   return dof * root * root * root;
 }
 
-}  // namespace movis::triangulation
+}  // namespace movis
