@@ -20,18 +20,18 @@
 #include <visp3/core/vpImageDraw.h>
 
 #include "common.h"
-#include "movis/localization/composed.h"
-#include "movis/localization/method1.h"
-#include "movis/localization/method2.h"
+#include "movis/localization/localizer.h"
 #include "movis/pipeline/pipeline.h"
 
 using namespace movis;
 using Eigen::Vector2d;
 
-// Your localizer: a function of this signature is all it takes. A geometry that cannot be solved is a status. The
-// covariance is left out here, but whoever fuses the fix with others needs it: see movis/localization/method1.h.
-Fix posts(const triangulation::GoalLandmarks& landmarks, const Field& field) {
-  const triangulation::GoalPoints &yellow = landmarks.yellow, &blue = landmarks.blue;
+// Your localizer: a function of this signature is all it takes; of the instant it may also use the bearings. A geometry
+// that cannot be solved is a status. The covariance is left out here, but whoever fuses the fix with others needs it:
+// see movis/localization/method1.h.
+Fix posts(const localization::Instant& instant, const localization::FieldMap& map, const localization::Options&) {
+  const triangulation::GoalPoints &yellow = instant.goals.yellow, &blue = instant.goals.blue;
+  const Field& field = map.field;
   Fix fix;
   fix.status = FixStatus::no_distance;
   if (yellow.edges_status != PointStatus::ok || blue.edges_status != PointStatus::ok) return fix;
@@ -105,11 +105,11 @@ bool localize(const std::filesystem::path& folder, const std::string& out) {
   const Field field = read_field(folder / "field.yaml");
   const auto truths = grab::read_truth(folder / "truth.csv");
   const scan::Colours colours = scan::read_colours(data_file("colours/default.yaml"));
-  Contender contenders[] = {{"method1", localization::method1, vpColor::red},
-                            {"method2", localization::method2, vpColor::purple},
-                            {"composed", localization::composed, vpColor::blue},
-                            {"posts", posts, vpColor::darkGreen}};
-  pipeline::Pipeline pipeline(source.dataset().rig, field, colours, pipeline::Options{}, posts);
+  Contender contenders[] = {{"method1", localization::find_localizer("method1"), vpColor::red},
+                            {"method2", localization::find_localizer("method2"), vpColor::purple},
+                            {"composed", localization::find_localizer("composed"), vpColor::blue},
+                            {"posts", {posts}, vpColor::darkGreen}};
+  pipeline::Pipeline pipeline(source.dataset().rig, field, colours, pipeline::Options{}, {posts});
   Plan plan;
   draw_field(plan, field);
 
@@ -121,7 +121,8 @@ bool localize(const std::filesystem::path& folder, const std::string& out) {
     fmt::print("{:3} {:9}{:8.3f}{:9.3f}{:9.2f}°\n", set.index, "true", truth.x, truth.y,
                degrees(wrap_angle(truth.beta)));
     draw_truth(plan, truth);
-    for (Contender& contender : contenders) judge(contender, contender.localizer(estimate.goals, field), truth, plan);
+    const localization::Instant instant{pipeline.rig, estimate.bearings, estimate.goals, estimate.lines};
+    for (Contender& contender : contenders) judge(contender, contender.localizer.fix(instant, *pipeline.map, {}), truth, plan);
   }
 
   const vpFont font(14);

@@ -20,6 +20,9 @@ const Pose2 kWorldFromRobot{0.4, -0.3, 0.7};
 struct Scene {
   Field field = read_field(data_file("fields/paper.yaml"));
   triangulation::GoalLandmarks landmarks;
+  omni::Rig rig;
+  std::vector<Bearing> bearings;
+  std::vector<LinePoint> lines;
 
   Scene() {
     const double w = field.Fw + field.goal_thickness;
@@ -48,8 +51,10 @@ void require_pose(const Vector2d& position) {
 void localize(benchmark::State& state, const char* name) {
   const Scene scene;
   const localization::Localizer localizer = localization::find_localizer(name);
-  require_pose(localizer(scene.landmarks, scene.field).world_from_robot.translation());
-  for (auto _ : state) benchmark::DoNotOptimize(localizer(scene.landmarks, scene.field));
+  const localization::FieldMap map(scene.field);
+  const localization::Instant instant{scene.rig, scene.bearings, scene.landmarks, scene.lines};
+  require_pose(localizer.fix(instant, map, {}).world_from_robot.translation());
+  for (auto _ : state) benchmark::DoNotOptimize(localizer.fix(instant, map, {}));
 }
 BENCHMARK_CAPTURE(localize, method1, "method1")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(localize, method2, "method2")->Unit(benchmark::kMicrosecond);

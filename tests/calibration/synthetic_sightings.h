@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "movis/calibration/goal_silhouette.h"
+#include "movis/localization/goal_silhouette.h"
 #include "movis/calibration/rig_calibration.h"
 #include "movis/core/angle.h"
 #include "movis/core/paths.h"
@@ -83,7 +83,7 @@ class Observer {
       for (std::size_t k = 0; k < true_rig_.cameras.size(); ++k) {
         const omni::Camera& camera = true_rig_.cameras[k];
         const Vector2d viewpoint = world_from_robot * Vector2d(camera.position.head<2>());
-        const calibration::Silhouette silhouette = calibration::goal_silhouette(field, goal, viewpoint);
+        const localization::Silhouette silhouette = localization::goal_silhouette(field, goal, viewpoint);
         const auto edge = [&](double azimuth) {
           const double azimuth_in_robot = azimuth - world_from_robot.beta + normal(random_, radians(noise_.edge_deg));
           const Vector3d seen = mistaken(camera, believed_.cameras[k], ray(azimuth_in_robot, 0.0)).value();

@@ -20,6 +20,8 @@ namespace movis::localization {
 using triangulation::GoalLandmarks;
 using triangulation::GoalPoints;
 
+using GoalMethod = Fix (*)(const GoalLandmarks&, const Field&);  // method1, method2 or composed
+
 // The paper's 3.5 m × 4 m, with goals whose silhouette is 1 m wide: w = 0.4 + 0.1 = 0.5. All four edges then lie at
 // √(2² + 0.5²) = √4.25 from the centre spot.
 inline Field paper_field() {
@@ -85,22 +87,22 @@ inline void for_each_pose(const std::function<void(const Pose2&)>& visit) {
 }
 
 // Statuses of goals that cannot give a fix, the same for every method; `spoil` takes what it needs from one goal.
-inline void expect_missing_goals_reported(Localizer localizer,
+inline void expect_missing_goals_reported(GoalMethod method,
                                           const std::function<void(GoalPoints&, PointStatus)>& spoil) {
   const Field field = paper_field();
   const GoalLandmarks both = landmarks_from({0.5, 0.3, 0.4});
-  ASSERT_EQ(localizer(both, field).status, FixStatus::ok);
-  EXPECT_EQ(localizer({}, field).status, FixStatus::no_goal);
-  EXPECT_EQ(localizer({both.yellow, {}}, field).status, FixStatus::one_goal);
-  EXPECT_EQ(localizer({{}, both.blue}, field).status, FixStatus::one_goal);
+  ASSERT_EQ(method(both, field).status, FixStatus::ok);
+  EXPECT_EQ(method({}, field).status, FixStatus::no_goal);
+  EXPECT_EQ(method({both.yellow, {}}, field).status, FixStatus::one_goal);
+  EXPECT_EQ(method({{}, both.blue}, field).status, FixStatus::one_goal);
   GoalLandmarks glimpsed;  // an edge here, a centre there: seen, though not measured
   glimpsed.yellow.edges_status = glimpsed.blue.centre_status = PointStatus::one_camera;
-  EXPECT_EQ(localizer(glimpsed, field).status, FixStatus::no_distance);
+  EXPECT_EQ(method(glimpsed, field).status, FixStatus::no_distance);
   for (const PointStatus status : {PointStatus::one_camera, PointStatus::parallel_rays, PointStatus::behind_camera}) {
     for (const int which : {0, 1}) {
       GoalLandmarks landmarks = both;
       spoil(*goals(landmarks)[which], status);
-      EXPECT_EQ(localizer(landmarks, field).status, FixStatus::no_distance) << word(status);
+      EXPECT_EQ(method(landmarks, field).status, FixStatus::no_distance) << word(status);
     }
   }
 }
@@ -120,7 +122,7 @@ inline void set_stacked(GoalPoints& goal, const Eigen::Matrix<double, 6, 1>& poi
 
 // No number in the landmarks, however wrong, may come out as one that is not finite; `first` and `last` bound the
 // coordinates (0 … 5: centre, left, right) that the method needs: a NaN among those is a status.
-inline void expect_bad_numbers_reported(Localizer localizer, int first, int last) {
+inline void expect_bad_numbers_reported(GoalMethod method, int first, int last) {
   const Field field = paper_field();
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308, 1e160, 1e-320, 0.0}) {
     for (const int which : {0, 1}) {
@@ -129,7 +131,7 @@ inline void expect_bad_numbers_reported(Localizer localizer, int first, int last
         Eigen::Matrix<double, 6, 1> points = stacked(*goals(landmarks)[which]);
         points[i] = bad;
         set_stacked(*goals(landmarks)[which], points);
-        const Fix fix = localizer(landmarks, field);
+        const Fix fix = method(landmarks, field);
         EXPECT_TRUE(is_finite(fix)) << bad << " at " << i;
         if (!std::isfinite(bad) && i >= first && i <= last) {
           EXPECT_EQ(fix.status, FixStatus::no_distance) << bad << " at " << i;
@@ -139,12 +141,12 @@ inline void expect_bad_numbers_reported(Localizer localizer, int first, int last
   }
   GoalLandmarks landmarks = landmarks_from({0.5, 0.3, 0.4});
   landmarks.blue.covariance(first, first) = std::nan("");
-  EXPECT_EQ(localizer(landmarks, field).status, FixStatus::no_distance);
-  EXPECT_TRUE(is_finite(localizer(landmarks, field)));
+  EXPECT_EQ(method(landmarks, field).status, FixStatus::no_distance);
+  EXPECT_TRUE(is_finite(method(landmarks, field)));
   GoalLandmarks at_origin;
   at_origin.yellow = at_origin.blue = seen_goal({0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0});
-  EXPECT_EQ(localizer(at_origin, field).status, FixStatus::no_distance);
-  EXPECT_TRUE(is_finite(localizer(at_origin, field)));
+  EXPECT_EQ(method(at_origin, field).status, FixStatus::no_distance);
+  EXPECT_TRUE(is_finite(method(at_origin, field)));
 }
 
 // A factor L of a goal's covariance L Lᵀ in which all points are correlated: no method may drop an off-diagonal block.
@@ -167,10 +169,10 @@ inline GoalLandmarks with_covariance(GoalLandmarks landmarks, double sigma) {
 
 // The covariance must be J C Jᵀ with the J that central differences of the method itself give. The step of 1 µm leaves
 // them exact to about 1e-7 even where the root of (17) bends most.
-inline void expect_first_order_covariance(Localizer localizer, const GoalLandmarks& exact) {
+inline void expect_first_order_covariance(GoalMethod method, const GoalLandmarks& exact) {
   const Field field = paper_field();
   const GoalLandmarks landmarks = with_covariance(exact, 1e-3);
-  const Fix fix = localizer(landmarks, field);
+  const Fix fix = method(landmarks, field);
   ASSERT_EQ(fix.status, FixStatus::ok) << word(fix.status);
   Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
   for (const int which : {0, 1}) {
@@ -183,7 +185,7 @@ inline void expect_first_order_covariance(Localizer localizer, const GoalLandmar
         Eigen::Matrix<double, 6, 1> points = stacked(*goals(shifted)[which]);
         points[i] += side == 1 ? step : -step;
         set_stacked(*goals(shifted)[which], points);
-        moved[side] = localizer(shifted, field);
+        moved[side] = method(shifted, field);
         ASSERT_EQ(moved[side].status, FixStatus::ok);
       }
       jacobian.col(i) = error(moved[1].world_from_robot, moved[0].world_from_robot) / (2.0 * step);
@@ -195,7 +197,7 @@ inline void expect_first_order_covariance(Localizer localizer, const GoalLandmar
 
 // The mean of eᵀ C⁻¹ e over seeded draws. It is χ² of 3 degrees of freedom, of mean 3 and variance 6, when C is the
 // covariance of the error e: over 20 000 draws the mean then has a standard deviation of 0.017, 0.6 %.
-inline double mean_nees(Localizer localizer, const Pose2& truth, double sigma, std::uint64_t seed) {
+inline double mean_nees(GoalMethod method, const Pose2& truth, double sigma, std::uint64_t seed) {
   constexpr int kDraws = 20000;
   const Field field = paper_field();
   const GoalLandmarks exact = with_covariance(landmarks_from(truth), sigma);
@@ -210,7 +212,7 @@ inline double mean_nees(Localizer localizer, const Pose2& truth, double sigma, s
       for (double& value : z) value = normal(stream);
       set_stacked(*goal, stacked(*goal) + factor * z);
     }
-    const Fix fix = localizer(measured, field);
+    const Fix fix = method(measured, field);
     if (fix.status != FixStatus::ok) return std::nan("");
     const Eigen::Vector3d e = error(fix.world_from_robot, truth);
     sum += e.dot(fix.covariance.ldlt().solve(e));
@@ -218,19 +220,19 @@ inline double mean_nees(Localizer localizer, const Pose2& truth, double sigma, s
   return sum / kDraws;
 }
 
-inline void expect_consistent_covariance(Localizer localizer) {
+inline void expect_consistent_covariance(GoalMethod method) {
   std::uint64_t seed = 1;
   for (const Pose2& truth : {Pose2{0.9, 0.3, 0.5}, Pose2{-0.8, -0.9, -2.0}, Pose2{-1.2, 0.7, 3.1}}) {
-    const double nees = mean_nees(localizer, truth, 1e-3, seed++);
+    const double nees = mean_nees(method, truth, 1e-3, seed++);
     EXPECT_GT(nees, 0.97 * 3.0) << truth.x << ' ' << truth.y;
     EXPECT_LT(nees, 1.03 * 3.0) << truth.x << ' ' << truth.y;
   }
 }
 
 // With the colours exchanged the field looks the same from the opposite side: a fix turned by 180°, and no way to tell.
-inline void expect_swapped_goals_turn_the_field(Localizer localizer) {
+inline void expect_swapped_goals_turn_the_field(GoalMethod method) {
   const GoalLandmarks true_colours = landmarks_from({0.5, 0.3, 0.4});
-  expect_pose(localizer({true_colours.blue, true_colours.yellow}, paper_field()), {-0.5, -0.3, 0.4 - kPi}, 1e-9);
+  expect_pose(method({true_colours.blue, true_colours.yellow}, paper_field()), {-0.5, -0.3, 0.4 - kPi}, 1e-9);
 }
 
 }  // namespace movis::localization

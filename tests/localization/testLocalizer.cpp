@@ -1,28 +1,34 @@
 #include "goal_scene.h"
-#include "movis/localization/composed.h"
+#include "movis/core/error.h"
 #include "movis/localization/localizer.h"
-#include "movis/localization/method1.h"
-#include "movis/localization/method2.h"
 
 namespace movis::localization {
 namespace {
 
-TEST(Localizer, IsFoundByItsName) {
-  EXPECT_EQ(find_localizer("method1"), &method1);
-  EXPECT_EQ(find_localizer("method2"), &method2);
-  EXPECT_EQ(find_localizer("composed"), &composed);
-}
-
-TEST(Localizer, UnknownNameFindsNone) {
-  EXPECT_EQ(find_localizer(""), nullptr);
-  EXPECT_EQ(find_localizer("method"), nullptr);
-  EXPECT_EQ(find_localizer("Method1"), nullptr);
+TEST(Localizer, UnknownNameNamesTheNearest) {
+  for (const char* name : {"", "method", "Method1"}) {
+    try {
+      find_localizer(name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("method1"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(Localizer, EveryNameThatIsListedIsFound) {
   const std::vector<std::string_view> names = localizer_names();
-  EXPECT_GE(names.size(), 3U);
-  for (const std::string_view name : names) EXPECT_NE(find_localizer(name), nullptr) << name;
+  EXPECT_GE(names.size(), 4U);
+  for (const std::string_view name : names) EXPECT_NE(find_localizer(name).fix, nullptr) << name;
+}
+
+// The paper's methods know goals by their colour alone.
+TEST(Localizer, WhiteGoalsAreRefusedByThePapersMethods) {
+  Field field = paper_field();
+  field.goals = Field::Goals::white;
+  for (const char* name : {"method1", "method2", "composed"}) {
+    EXPECT_THROW(find_localizer(name).require(field), Error) << name;
+  }
 }
 
 // Whatever points are handed in, over forty orders of magnitude, no number that is not finite comes out.
@@ -31,6 +37,8 @@ TEST(Localizer, NoNanFromAnyLandmarks) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> exponent(-20.0, 20.0);
   const auto number = [&] { return normal(stream) * std::pow(10.0, exponent(stream)); };
+  const omni::Rig rig;
+  const FieldMap map(paper_field());
   int solved = 0;
   for (int draw = 0; draw < 20000; ++draw) {
     GoalLandmarks landmarks = landmarks_from({0.5, 0.3, 0.4});
@@ -41,7 +49,7 @@ TEST(Localizer, NoNanFromAnyLandmarks) {
     }
     landmarks = with_covariance(landmarks, std::abs(number()));
     for (const std::string_view name : localizer_names()) {
-      const Fix fix = find_localizer(name)(landmarks, paper_field());
+      const Fix fix = find_localizer(name).fix({rig, {}, landmarks, {}}, map, {});
       ASSERT_TRUE(is_finite(fix)) << name << " at draw " << draw;
       solved += fix.status == FixStatus::ok ? 1 : 0;
     }

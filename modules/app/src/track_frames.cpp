@@ -48,7 +48,7 @@ void TrackFrames::add(const pipeline::Pipeline& pipeline, const grab::FrameSet& 
   frame.ball_in_robot = pipeline.estimate.ball_in_robot;
   frame.fix = pipeline.estimate.fix;
   frame.tick_us = pipeline.estimate.tick_us;
-  frame.field = pipeline.field;
+  if (pipeline.map) frame.field = pipeline.map->field;
   if (truth != nullptr) {
     frame.label = truth->label;
     frame.true_pose = truth->world_from_robot;

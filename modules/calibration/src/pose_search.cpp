@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "movis/calibration/goal_silhouette.h"
+#include "movis/localization/goal_silhouette.h"
 #include "movis/core/angle.h"
 
 namespace movis::calibration {
@@ -31,7 +31,7 @@ Proposal best_heading(const std::vector<Edge>& edges, const Eigen::Vector2d& pla
     std::vector<double> headings;
     for (const Edge& edge : edges) {
       const Eigen::Vector2d viewpoint = round == 0 ? place : world_from_robot * edge.viewpoint_in_robot;
-      const Silhouette goal = goal_silhouette(field, edge.goal, viewpoint);
+      const localization::Silhouette goal = localization::goal_silhouette(field, edge.goal, viewpoint);
       headings.push_back((edge.left ? goal.left : goal.right) - edge.azimuth);
     }
     best.cost = HUGE_VAL;

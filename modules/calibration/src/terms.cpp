@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "movis/calibration/goal_silhouette.h"
+#include "movis/localization/goal_silhouette.h"
 #include "movis/core/angle.h"
 
 namespace movis::calibration {
@@ -136,7 +136,7 @@ void add_goal(Adjustment& adjustment, const Drawing& drawing, const RigUnknowns&
       const auto seen = direction_of(camera, pixel);
       if (!seen) return false;
       const Pose2 world_from_robot{blocks[2][0], blocks[2][1], blocks[2][2]};
-      const Silhouette true_one = goal_silhouette(field, goal, world_from_robot * camera.position.head<2>());
+      const localization::Silhouette true_one = localization::goal_silhouette(field, goal, world_from_robot * camera.position.head<2>());
       const double wider = bias_sigma * blocks[1][0];
       const double expected = left ? true_one.left + wider : true_one.right - wider;
       residual[0] = turn(expected, world_from_robot.beta + seen->azimuth) / sigma;

@@ -43,6 +43,12 @@ const char* word(FixStatus status) {
       return "negative_radicand";
     case FixStatus::outside_field:
       return "outside_field";
+    case FixStatus::no_landmark:
+      return "no_landmark";
+    case FixStatus::ambiguous:
+      return "ambiguous";
+    case FixStatus::bad_fit:
+      return "bad_fit";
   }
   return "?";
 }

@@ -4,22 +4,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include "movis/core/error.h"
-#include "movis/core/names.h"
 #include "movis/core/paths.h"
 #include "movis/localization/localizer.h"
 
 namespace movis::experiments {
 namespace {
 
-localization::Localizer localizer_of(const std::string& name) {
-  if (const localization::Localizer localizer = localization::find_localizer(name)) return localizer;
-  const auto known = localization::localizer_names();
-  throw Error("there is no localizer '{}'{}", name, suggestion(name, {known.begin(), known.end()}));
-}
-
 pipeline::Player make_player(const sim::Scenario& scenario, const MatchOptions& options) {
   pipeline::Pipeline vision(scenario.rig, scenario.arena.field, scan::read_colours(data_file("colours/default.yaml")),
-                            options.pipeline, localizer_of(options.localizer),
+                            options.pipeline, localization::find_localizer(options.localizer),
                             triangulation::find_triangulator(options.triangulation));
   return {std::move(vision), scenario.robot};
 }

@@ -23,17 +23,16 @@ void scan_images(Pipeline& pipeline, const grab::FrameSet& images) {
 }  // namespace
 
 Pipeline::Pipeline(omni::Rig rig_used, std::optional<Field> field_used, const scan::Colours& colours,
-                   const Options& options_used, localization::Localizer localizer_used,
+                   const Options& options_used, const localization::Localizer& localizer_used,
                    const triangulation::Triangulator& triangulator_used)
     : rig(std::move(rig_used)),
-      field(field_used),
       options(options_used),
       localizer(localizer_used),
       triangulator(triangulator_used) {
   triangulator.require(rig);
-  if (localizer == nullptr) throw Error("the pipeline needs a localizer; there is none of that name");
-  if (field && field->goals == Field::Goals::white) {
-    throw Error("the field's goals are white; the localizers need a yellow and a blue one");
+  if (field_used) {
+    if (localizer.require != nullptr) localizer.require(*field_used);
+    map.emplace(*field_used);
   }
   scanners.reserve(rig.cameras.size());
   for (int camera = 0; camera < static_cast<int>(rig.cameras.size()); ++camera) {
@@ -59,7 +58,11 @@ const Estimate& step(Pipeline& pipeline, const grab::FrameSet& images) {
   estimate.ball_in_robot = triangulator.ball(rig, estimate.bearings, options);
   estimate.goals.yellow = triangulator.goal(rig, estimate.bearings, ObjectClass::yellow_goal, options);
   estimate.goals.blue = triangulator.goal(rig, estimate.bearings, ObjectClass::blue_goal, options);
-  estimate.fix = pipeline.field ? pipeline.localizer(estimate.goals, *pipeline.field) : Fix{};
+  estimate.fix = Fix{};
+  if (pipeline.map) {
+    estimate.fix = pipeline.localizer.fix({rig, estimate.bearings, estimate.goals, estimate.lines}, *pipeline.map,
+                                          pipeline.options.localization);
+  }
 
   estimate.tick_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
   return estimate;

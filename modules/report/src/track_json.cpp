@@ -149,6 +149,12 @@ const char* explanation(FixStatus status) {
       return "the circles through the posts of the two goals do not meet";
     case FixStatus::outside_field:
       return "the solution lies far outside the field and is not believed";
+    case FixStatus::no_landmark:
+      return "neither goals nor lines enough for a pose were seen";
+    case FixStatus::ambiguous:
+      return "another pose explains what was seen as well";
+    case FixStatus::bad_fit:
+      return "no pose explains what was seen";
   }
   return "";
 }

@@ -30,6 +30,9 @@ enum class FixStatus : std::uint8_t {
   coinciding_circles,  // (18) is 0/0: the robot stands on the circle through all four posts
   negative_radicand,   // (17): the two circles do not meet
   outside_field,       // the solution lies far outside the field: it is not believed
+  no_landmark,         // neither goals nor lines enough for a pose were seen
+  ambiguous,           // another pose explains what was seen as well, or nearly so
+  bad_fit,             // no pose explains what was seen
 };
 
 const char* word(PointStatus status);
@@ -48,6 +51,10 @@ struct Fix {
   FixStatus status = FixStatus::no_field;
   Pose2 world_from_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of (x, y, beta): m², m·rad, rad²
+
+  // What was seen fits the pose turned by half a turn about the centre spot as well: a field with white goals looks the
+  // same from there.
+  bool symmetric = false;
 };
 
 }  // namespace movis

@@ -7,6 +7,8 @@
 
 #include "movis/core/bearing.h"
 #include "movis/core/field.h"
+#include "movis/core/line_point.h"
+#include "movis/core/obstacle.h"
 #include "movis/core/status.h"
 #include "movis/grab/image_source.h"
 #include "movis/localization/localizer.h"
@@ -23,10 +25,11 @@ namespace movis::pipeline {
 struct Options {
   scan::ScanOptions scan;
   triangulation::Options triangulation;
+  localization::Options localization;
   world::WorldOptions world;
 };
 
-// Reads options.yaml strictly: the maps `scan`, `triangulation` and `world`, each optional; what is left out keeps its
+// Reads options.yaml strictly: the maps `scan`, `triangulation`, `localization` and `world`, each optional; what is left out keeps its
 // default.
 Options read_options(const std::filesystem::path& file);
 
@@ -35,6 +38,8 @@ struct Estimate {
   std::int64_t index = 0;
   double time_s = 0.0;
   std::vector<Bearing> bearings;
+  std::vector<LinePoint> lines;
+  std::vector<Obstacle> obstacles;
   PointEstimate ball_in_robot;
   triangulation::GoalLandmarks goals;  // robot frame
   Fix fix;
@@ -44,12 +49,12 @@ struct Estimate {
 // Everything that step() needs, made once. Changing the localizer or the triangulator is changing function pointers.
 struct Pipeline {
   Pipeline(omni::Rig rig, std::optional<Field> field, const scan::Colours& colours, const Options& options,
-           localization::Localizer localizer,
+           const localization::Localizer& localizer,
            const triangulation::Triangulator& triangulator =
                triangulation::find_triangulator(triangulation::kDefaultTriangulator));
 
   omni::Rig rig;
-  std::optional<Field> field;  // without one no pose is sought
+  std::optional<localization::FieldMap> map;  // of the field; without one no pose is sought
   Options options;
   localization::Localizer localizer;
   triangulation::Triangulator triangulator;

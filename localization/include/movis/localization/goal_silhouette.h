@@ -5,7 +5,7 @@
 #include "movis/core/bearing.h"
 #include "movis/core/field.h"
 
-namespace movis::calibration {
+namespace movis::localization {
 
 // Between which azimuths a goal is seen: of the field's axes, radians in (−π, π]; left is the larger one.
 struct Silhouette {
@@ -22,4 +22,4 @@ struct Silhouette {
 // Domain: a viewpoint (field frame, metres) outside the box.
 Silhouette goal_silhouette(const Field& field, ObjectClass goal, const Eigen::Vector2d& viewpoint_in_field);
 
-}  // namespace movis::calibration
+}  // namespace movis::localization

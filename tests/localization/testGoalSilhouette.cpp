@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "movis/calibration/goal_silhouette.h"
+#include "movis/localization/goal_silhouette.h"
 #include "movis/core/angle.h"
 
-namespace movis::calibration {
+namespace movis::localization {
 namespace {
 
 using Eigen::Vector2d;
@@ -60,4 +60,4 @@ TEST(GoalSilhouette, AcrossTheCut) {
 }
 
 }  // namespace
-}  // namespace movis::calibration
+}  // namespace movis::localization

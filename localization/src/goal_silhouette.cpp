@@ -1,8 +1,8 @@
-#include "movis/calibration/goal_silhouette.h"
+#include "movis/localization/goal_silhouette.h"
 
 #include <cmath>
 
-namespace movis::calibration {
+namespace movis::localization {
 namespace {
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -31,4 +31,4 @@ Silhouette goal_silhouette(const Field& field, ObjectClass goal, const Eigen::Ve
   return {std::atan2(leftmost.y(), leftmost.x()), std::atan2(rightmost.y(), rightmost.x())};
 }
 
-}  // namespace movis::calibration
+}  // namespace movis::localization
