@@ -28,7 +28,8 @@ Silhouette goal_silhouette(const Field& field, ObjectClass goal, const Eigen::Ve
     include(sign * width, back);
     include(sign * field.Fw, back + field.goal_thickness);
   }
-  return {std::atan2(leftmost.y(), leftmost.x()), std::atan2(rightmost.y(), rightmost.x())};
+  return {std::atan2(leftmost.y(), leftmost.x()), std::atan2(rightmost.y(), rightmost.x()),
+          viewpoint_in_field + leftmost, viewpoint_in_field + rightmost};
 }
 
 }  // namespace movis::localization

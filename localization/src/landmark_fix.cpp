@@ -18,12 +18,6 @@ bool measured(const GoalPoints& goal, Needs needs) {
   return (centre || needs == Needs::edges) && (edges || needs == Needs::centres);
 }
 
-bool outside(const Pose2& world_from_robot, const Field& field) {
-  const double back = std::max(field.half_length, field.Fd + field.goal_depth + field.goal_thickness);
-  return std::abs(world_from_robot.x) > field.half_width + kOutsideMargin ||
-         std::abs(world_from_robot.y) > back + kOutsideMargin;
-}
-
 }  // namespace
 
 FixStatus landmark_status(const triangulation::GoalLandmarks& landmarks, Needs needs) {
@@ -42,8 +36,14 @@ Fix fix_from(const Solution& solution, const triangulation::GoalLandmarks& landm
   const bool finite = fix.world_from_robot.translation().allFinite() && std::isfinite(fix.world_from_robot.beta) &&
                       fix.covariance.allFinite();
   if (!finite) return failed(FixStatus::no_distance);
-  if (outside(fix.world_from_robot, field)) return failed(FixStatus::outside_field);
+  if (far_outside(fix.world_from_robot, field)) return failed(FixStatus::outside_field);
   return fix;
+}
+
+bool far_outside(const Pose2& world_from_robot, const Field& field) {
+  const double back = std::max(field.half_length, field.Fd + field.goal_depth + field.goal_thickness);
+  return std::abs(world_from_robot.x) > field.half_width + kOutsideMargin ||
+         std::abs(world_from_robot.y) > back + kOutsideMargin;
 }
 
 Fix failed(FixStatus status) {

@@ -72,7 +72,7 @@ TEST_F(Step, NoCameraLeft) {
 }
 
 TEST_F(Step, WithoutFieldNoPoseIsSought) {
-  pipeline_->field.reset();
+  pipeline_->map.reset();
   EXPECT_EQ(step(*pipeline_, images_).fix.status, FixStatus::no_field);
 }
 

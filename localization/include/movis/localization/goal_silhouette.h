@@ -7,10 +7,13 @@
 
 namespace movis::localization {
 
-// Between which azimuths a goal is seen: of the field's axes, radians in (−π, π]; left is the larger one.
+// Between which azimuths a goal is seen: of the field's axes, radians in (−π, π]; left is the larger one. And the
+// corners of the goal that are seen there, field frame, metres.
 struct Silhouette {
   double left = 0.0;
   double right = 0.0;
+  Eigen::Vector2d left_corner = Eigen::Vector2d::Zero();
+  Eigen::Vector2d right_corner = Eigen::Vector2d::Zero();
 };
 
 // A goal is a box without front and top: two side walls outside its inner width 2 Fw and a back wall outside its depth,

@@ -6,15 +6,44 @@
 
 namespace movis::localization {
 
+// Robust nonlinear least squares: the pose that explains best under which azimuths every camera sees the goals' edges
+// and where it sees white lines.
+//
+// Unknowns: pose (x, y, β) and, for each goal, the bias b of its edges, outwards, radians. Detected edges of one goal err
+// together (how its light mixes with its surroundings', how thick its paint is), so that more cameras do not average it
+// away; it has the prior N(0, edge_bias²).
+//   edge    r = φ − (azimuth of the silhouette's corner as seen from the camera's viewpoint − β) − s b,
+//           s = +1 for the left edge, −1 for the right one; the silhouette is that of goal_silhouette.h
+//   line    r = signed distance of the point, placed in the field, from the middle of the nearest line (line_map.h)
+// Loss: Geman–McClure, ρ(u) = ½ u² c²/(c² + u²) of u = r/σ. Its width shrinks from the start's uncertainty to c = 4 in
+// the end (graduated non-convexity: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al., RA-L 5(2),
+// 2020). An edge that something covers is an outlier and loses its weight, also when the scan did not notice.
+// Line points of one line err together as well: all of them weigh no more than `line_points` independent ones.
+//
+// Start without a guess: places on a lattice over the field, the heading of each by the edges' circular mean, the best of
+// them refined; where the edges do not suffice, by lines (line_match.h).
+//
+// Covariance of (x, y, β): of the weighted normal equations at the solution with b eliminated, times the square of the
+// residuals' robust scale where that is above 1: a rig that is not as its file says shows in the residuals.
+// Fails with no_goal, one_goal (not enough was seen), ambiguous (another pose fits nearly as well), bad_fit (too few of
+// the clean edges agree with the pose, or their scale exceeds `worst_scale`), outside_field.
+// Allocates nothing.
 struct NlsOptions {
+  double edge_floor_deg = 0.008;  // sigma added to each edge's own: the silhouette's model, the lens's
+  double edge_bias_deg = 0.015;
+  double line_floor = 0.01;   // sigma added to each line point's own, metres
+  double line_points = 25.0;  // that all line points count for at most
+  double loss_width = 4.0;    // c
+  double worst_scale = 60.0;  // of the residuals over their sigma
+  double worst_sigma = 0.10;  // of the position, metres: above it, the pose counts as not determined
 };
 
 NlsOptions read_nls_options(const YamlMap& map);
 
-// Robust least squares on the goals' edges and the line points, from no guess.
+// From no guess.
 Fix nls(const Instant& instant, const FieldMap& map, const NlsOptions& options);
 
-// The same from a guess of the pose.
+// From a guess of the pose, to within about half a metre and 20°.
 Fix nls_from(const Pose2& guess, const Instant& instant, const FieldMap& map, const NlsOptions& options);
 
 }  // namespace movis::localization

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "goal_edges.h"
+
+// One local solution of nls.
+namespace movis::localization {
+
+// Unknowns: x, y, β, and the biases of the yellow and the blue goal's edges.
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+struct Problem {
+  const GoalEdges& edges;
+  const std::vector<LinePoint>& lines;
+  const FieldMap& map;
+  const NlsOptions& options;
+};
+
+struct Candidate {
+  Pose2 world_from_robot;
+  Eigen::Vector2d bias = Eigen::Vector2d::Zero();
+  double cost = 0.0;   // of the lossy residuals, at the loss's final width
+  double scale = 1.0;  // of the residuals over their sigma, robust, at least 1
+  int agreeing = 0;    // edges within the loss's width
+  int clean = 0, clean_agreeing = 0;
+  double lines_agreeing = 0.0;  // share of the line points within the loss's width
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+// From a place and heading that may be off by as much as `start_width` radians in an edge's azimuth.
+Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem);
+
+}  // namespace movis::localization
