@@ -19,22 +19,21 @@ bool usable(const Bearing& bearing) {
 
 }  // namespace
 
-GoalEdges goal_edges(const Instant& instant, const NlsOptions& options) {
+GoalEdges goal_edges(const Instant& instant, const Field& field, const NlsOptions& options) {
   const double floor = radians(options.edge_floor_deg);
-  // A bearing's flag speaks of both edges; that one of them is hidden shows in its sigma, too.
-  const double hidden = radians(1.0);
   GoalEdges edges;
-  if (instant.rig.cameras.empty()) return edges;
+  if (field.goals == Field::Goals::white) return edges;
+  const int cameras = static_cast<int>(instant.rig.cameras.size());
   int sight = 0;
   for (const Bearing& bearing : instant.bearings) {
-    if (!usable(bearing) || edges.count + 2 > kMostEdges) continue;
-    const Eigen::Vector2d viewpoint = instant.rig.cameras.at(bearing.camera).position.head<2>();
+    if (bearing.camera < 0 || bearing.camera >= cameras || !usable(bearing) || edges.count + 2 > kMostEdges) continue;
+    const Eigen::Vector2d viewpoint = instant.rig.cameras[bearing.camera].position.head<2>();
     for (const bool is_left : {true, false}) {
       const double variance = is_left ? bearing.left_variance : bearing.right_variance;
       edges.edge[edges.count++] = {bearing.object,
                                    sight,
                                    is_left,
-                                   bearing.clean() && variance < hidden * hidden,
+                                   (is_left ? bearing.left_flags : bearing.right_flags) == 0,
                                    viewpoint,
                                    is_left ? bearing.left : bearing.right,
                                    std::sqrt(variance + floor * floor)};

@@ -6,7 +6,7 @@
 #include "movis/localization/instant.h"
 #include "movis/localization/nls.h"
 
-// What nls sees of the goals.
+// What nls sees of the goals; nothing where they are white.
 namespace movis::localization {
 
 inline constexpr int kMostEdges = 64;
@@ -32,6 +32,6 @@ struct GoalEdges {
   const GoalEdge* end() const { return edge.data() + count; }
 };
 
-GoalEdges goal_edges(const Instant& instant, const NlsOptions& options);
+GoalEdges goal_edges(const Instant& instant, const Field& field, const NlsOptions& options);
 
 }  // namespace movis::localization

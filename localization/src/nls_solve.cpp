@@ -14,10 +14,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-// How wide the loss is: for edges in multiples of their sigma, and of lines never more than to half the way to the next.
+// How wide the loss is, in multiples of the sigmas; and of lines at most, metres: half the way to the next one.
 struct Width {
   double sigmas = 4.0;
-  double line = 0.0;  // at most, metres
+  double line = 0.0;
+};
+
+// By how much the residuals spread more than their sigmas tell.
+struct Scales {
+  double edges = 1.0;
+  double lines = 1.0;
 };
 
 struct Normal {
@@ -77,7 +83,9 @@ void for_each_line_point(const Problem& problem, const State& state, Visit visit
   const double c = std::cos(state.pose.beta);
   const double s = std::sin(state.pose.beta);
   const double floor = problem.options.line_floor;
-  for (const LinePoint& point : problem.lines) {
+  const std::size_t count = std::min<std::size_t>(problem.lines.size(), kMostLinePoints);
+  for (std::size_t i = 0; i < count; ++i) {
+    const LinePoint& point = problem.lines[i];
     const Vector2d arm(c * point.point.x() - s * point.point.y(), s * point.point.x() + c * point.point.y());
     const LineMap::Offset offset = problem.map.lines.offset(state.pose.translation() + arm);
     const Vector2d& n = offset.normal;
@@ -87,22 +95,22 @@ void for_each_line_point(const Problem& problem, const State& state, Visit visit
 }
 
 double line_share(const Problem& problem) {
-  const auto count = static_cast<double>(problem.lines.size());
+  const auto count = static_cast<double>(std::min<std::size_t>(problem.lines.size(), kMostLinePoints));
   return count > 0.0 ? std::min(1.0, problem.options.line_points / count) : 0.0;
 }
 
-Normal linearize(const Problem& problem, const State& state, const Width& width) {
+Normal linearize(const Problem& problem, const State& state, const Width& width, const Scales& scales) {
   Normal normal;
   const Loss loss{width.sigmas * width.sigmas};
   for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5& by_unknowns) {
-    const double information = 1.0 / (edge.sigma * edge.sigma);
+    const double information = 1.0 / (edge.sigma * edge.sigma * scales.edges * scales.edges);
     const double squared = residual * residual * information;
     const double weight = loss.weight(squared) * information;
     normal.hessian.noalias() += weight * by_unknowns * by_unknowns.transpose();
     normal.gradient.noalias() += weight * residual * by_unknowns;
     normal.cost += loss.cost(squared);
   });
-  const double bias = radians(problem.options.edge_bias_deg);
+  const double bias = radians(problem.options.edge_bias_deg) * scales.edges;
   const double prior = 1.0 / (bias * bias);
   for (int goal = 0; goal < 2; ++goal) {
     normal.hessian(3 + goal, 3 + goal) += prior;
@@ -113,8 +121,8 @@ Normal linearize(const Problem& problem, const State& state, const Width& width)
   Eigen::Matrix3d by_lines = Eigen::Matrix3d::Zero();
   Eigen::Vector3d down = Eigen::Vector3d::Zero();
   for_each_line_point(problem, state, [&](double sigma, double distance, const Eigen::Vector3d& by_pose) {
-    const double information = 1.0 / (sigma * sigma);
-    const double sigmas = std::min(width.sigmas, width.line / sigma);
+    const double information = 1.0 / (sigma * sigma * scales.lines * scales.lines);
+    const double sigmas = std::min(width.sigmas, width.line / (sigma * scales.lines));
     const Loss line_loss{sigmas * sigmas};
     const double squared = distance * distance * information;
     const double weight = share * line_loss.weight(squared) * information;
@@ -145,12 +153,21 @@ double step(State& state, const Normal& normal) {
   return change.head<2>().norm() + std::abs(change[2]);
 }
 
-// The residuals' scale over their sigma: 1.4826 times the median of their size, less what the pose took of it. Of the
-// clean edges where there are enough, else of all.
-double robust_scale(const Problem& problem, const State& state) {
-  constexpr int kUnknowns = 3;
-  constexpr double kMedianOfNormal = 1.4826;
-  std::array<double, kMostEdges> sizes;
+constexpr double kMedianOfNormal = 1.4826;
+constexpr int kUnknowns = 3;
+
+// The scale of the first `count` sizes: the median that a normal distribution of sigma 1 would have, less what the pose
+// took of it.
+double scale_of(double* sizes, int count) {
+  if (count <= kUnknowns) return 1.0;
+  std::nth_element(sizes, sizes + count / 2, sizes + count);
+  const double freedom = static_cast<double>(count) / (count - kUnknowns);
+  return std::max(1.0, kMedianOfNormal * sizes[count / 2] * std::sqrt(freedom));
+}
+
+// Edges: of the clean ones where there are enough, else of all.
+Scales robust_scales(const Problem& problem, const State& state) {
+  std::array<double, std::max(kMostEdges, kMostLinePoints)> sizes;
   int clean = 0;
   for (const GoalEdge& edge : problem.edges) clean += edge.clean ? 1 : 0;
   const bool only_clean = clean > kUnknowns + 2;
@@ -158,55 +175,56 @@ double robust_scale(const Problem& problem, const State& state) {
   for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
     if (edge.clean || !only_clean) sizes[count++] = std::abs(residual) / edge.sigma;
   });
-  if (count <= kUnknowns) return 1.0;
-  std::nth_element(sizes.begin(), sizes.begin() + count / 2, sizes.begin() + count);
-  return std::max(1.0,
-                  kMedianOfNormal * sizes[count / 2] * std::sqrt(count / (count - static_cast<double>(kUnknowns))));
+  Scales scales;
+  scales.edges = scale_of(sizes.data(), count);
+  count = 0;
+  for_each_line_point(problem, state, [&](double sigma, double distance, const Eigen::Vector3d&) {
+    sizes[count++] = std::abs(distance) / sigma;
+  });
+  scales.lines = scale_of(sizes.data(), count);
+  return scales;
 }
 
-void judge(const Problem& problem, const State& state, const Width& width, Candidate& candidate) {
-  for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
-    const bool agrees = std::abs(residual) < width.sigmas * edge.sigma;
-    candidate.agreeing += agrees ? 1 : 0;
-    candidate.clean += edge.clean ? 1 : 0;
-    candidate.clean_agreeing += agrees && edge.clean ? 1 : 0;
-  });
-  int agreeing = 0;
-  for_each_line_point(problem, state, [&](double sigma, double distance, const Eigen::Vector3d&) {
-    agreeing += std::abs(distance) < std::min(width.sigmas * sigma, width.line) ? 1 : 0;
-  });
-  if (!problem.lines.empty()) candidate.lines_agreeing = agreeing / static_cast<double>(problem.lines.size());
-}
+constexpr double kStartLine = 0.3;  // metres
+constexpr double kFinalLine = 0.06;
 
 }  // namespace
 
 Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem) {
-  constexpr double kStartLine = 0.3;  // metres
-  constexpr double kFinalLine = 0.06;
   constexpr double kSigma = 2.3e-4;  // of an edge, about; radians
   constexpr int kMostSteps = 12;
   constexpr double kSettled = 1e-7;
   const double final_width = problem.options.loss_width;
   State state{guess, Vector2d::Zero()};
   for (double width = start_width / kSigma; width > 4.0 * final_width; width *= 0.5) {
-    step(state, linearize(problem, state, {width, std::clamp(width * kSigma, kFinalLine, kStartLine)}));
+    step(state, linearize(problem, state, {width, std::clamp(width * kSigma, kFinalLine, kStartLine)}, {}));
   }
-  Candidate candidate;
+  const Width width{final_width, kFinalLine};
+  Scales scales;
   for (int round = 0; round < 2; ++round) {
-    candidate.scale = robust_scale(problem, state);
+    scales = robust_scales(problem, state);
     for (int i = 0; i < kMostSteps; ++i) {
-      if (step(state, linearize(problem, state, {final_width * candidate.scale, kFinalLine})) < kSettled) break;
+      if (step(state, linearize(problem, state, width, scales)) < kSettled) break;
     }
   }
-  const Width width{final_width * candidate.scale, kFinalLine};
-  const Normal normal = linearize(problem, state, width);
+  Candidate candidate;
   candidate.world_from_robot = state.pose;
   candidate.bias = state.bias;
-  candidate.cost = normal.cost / (candidate.scale * candidate.scale);
-  const Matrix5 covariance = normal.hessian.inverse() * (candidate.scale * candidate.scale);
-  candidate.covariance = covariance.topLeftCorner<3, 3>();
-  judge(problem, state, width, candidate);
+  candidate.edge_scale = scales.edges;
+  candidate.line_scale = scales.lines;
+  candidate.covariance = linearize(problem, state, width, scales).hessian.inverse().topLeftCorner<3, 3>();
+  for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
+    const bool agrees = std::abs(residual) < final_width * scales.edges * edge.sigma;
+    candidate.agreeing += agrees ? 1 : 0;
+    candidate.clean += edge.clean ? 1 : 0;
+    candidate.clean_agreeing += agrees && edge.clean ? 1 : 0;
+  });
   return candidate;
+}
+
+double cost_of(const Candidate& candidate, double edge_scale, double line_scale, const Problem& problem) {
+  const State state{candidate.world_from_robot, candidate.bias};
+  return linearize(problem, state, {problem.options.loss_width, kFinalLine}, {edge_scale, line_scale}).cost;
 }
 
 }  // namespace movis::localization

@@ -11,6 +11,8 @@ namespace movis::localization {
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
+inline constexpr int kMostLinePoints = 2048;  // more are not used
+
 struct Problem {
   const GoalEdges& edges;
   const std::vector<LinePoint>& lines;
@@ -21,15 +23,17 @@ struct Problem {
 struct Candidate {
   Pose2 world_from_robot;
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
-  double cost = 0.0;   // of the lossy residuals, at the loss's final width
-  double scale = 1.0;  // of the residuals over their sigma, robust, at least 1
-  int agreeing = 0;    // edges within the loss's width
+  double edge_scale = 1.0;  // by how much the residuals spread more than their sigmas tell
+  double line_scale = 1.0;
+  int agreeing = 0;  // edges within the loss's width
   int clean = 0, clean_agreeing = 0;
-  double lines_agreeing = 0.0;  // share of the line points within the loss's width
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
 // From a place and heading that may be off by as much as `start_width` radians in an edge's azimuth.
 Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem);
+
+// How badly a candidate fits, in the same scales as another one that it is compared with.
+double cost_of(const Candidate& candidate, double edge_scale, double line_scale, const Problem& problem);
 
 }  // namespace movis::localization

@@ -3,6 +3,7 @@
 #include "movis/core/status.h"
 #include "movis/core/yaml.h"
 #include "movis/localization/instant.h"
+#include "movis/localization/line_match.h"
 
 namespace movis::localization {
 
@@ -25,17 +26,23 @@ namespace movis::localization {
 //
 // Covariance of (x, y, β): of the weighted normal equations at the solution with b eliminated, times the square of the
 // residuals' robust scale where that is above 1: a rig that is not as its file says shows in the residuals.
-// Fails with no_goal, one_goal (not enough was seen), ambiguous (another pose fits nearly as well), bad_fit (too few of
-// the clean edges agree with the pose, or their scale exceeds `worst_scale`), outside_field.
-// Allocates nothing.
+// Fails with
+//   no_goal, one_goal, no_landmark  not enough was seen: of coloured goals none, one or both, or of lines
+//   ambiguous     another pose fits nearly as well. The pose given is one of them; where it is the half turn that is
+//                 open, `symmetric` is set: lines alone, on a field with coloured goals
+//   bad_fit       too few of the clean edges agree with the pose, or their scale exceeds `worst_scale`
+//   outside_field as method1
+// With white goals (field.yaml) only lines are used: ok with `symmetric` set, right up to the half turn.
+// Allocates nothing, after the first call in a thread.
 struct NlsOptions {
   double edge_floor_deg = 0.008;  // sigma added to each edge's own: the silhouette's model, the lens's
   double edge_bias_deg = 0.015;
-  double line_floor = 0.01;   // sigma added to each line point's own, metres
+  double line_floor = 0.003;  // sigma added to each line point's own, metres
   double line_points = 25.0;  // that all line points count for at most
   double loss_width = 4.0;    // c
   double worst_scale = 60.0;  // of the residuals over their sigma
   double worst_sigma = 0.10;  // of the position, metres: above it, the pose counts as not determined
+  LineMatchOptions lines;     // for the start by lines
 };
 
 NlsOptions read_nls_options(const YamlMap& map);
