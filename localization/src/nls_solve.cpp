@@ -155,6 +155,7 @@ double step(State& state, const Normal& normal) {
 
 constexpr double kMedianOfNormal = 1.4826;
 constexpr int kUnknowns = 3;
+constexpr double kChance = 1.5;  // a dozen edges spread as much more by chance
 
 // The scale of the first `count` sizes: the median that a normal distribution of sigma 1 would have, less what the pose
 // took of it.
@@ -162,18 +163,37 @@ double scale_of(double* sizes, int count) {
   if (count <= kUnknowns) return 1.0;
   std::nth_element(sizes, sizes + count / 2, sizes + count);
   const double freedom = static_cast<double>(count) / (count - kUnknowns);
-  return std::max(1.0, kMedianOfNormal * sizes[count / 2] * std::sqrt(freedom));
+  const double scale = kMedianOfNormal * sizes[count / 2] * std::sqrt(freedom);
+  return scale > kChance ? scale : 1.0;
 }
 
-// Edges: of the clean ones where there are enough, else of all.
-Scales robust_scales(const Problem& problem, const State& state) {
-  std::array<double, std::max(kMostEdges, kMostLinePoints)> sizes;
+bool all_count(const GoalEdges& edges) {
   int clean = 0;
-  for (const GoalEdge& edge : problem.edges) clean += edge.clean ? 1 : 0;
-  const bool only_clean = clean > kUnknowns + 2;
+  for (const GoalEdge& edge : edges) clean += edge.clean ? 1 : 0;
+  return clean <= kUnknowns + 2;
+}
+
+// The share of the edges that lie within `sigmas` of where they are to be; of the clean ones where those are enough.
+double consensus(const Problem& problem, const State& state, double sigmas) {
+  const bool all = all_count(problem.edges);
+  int count = 0;
+  int within = 0;
+  for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
+    if (!edge.clean && !all) return;
+    ++count;
+    within += std::abs(residual) < sigmas * edge.sigma ? 1 : 0;
+  });
+  return count > 0 ? within / static_cast<double>(count) : 1.0;
+}
+
+// Of the edges within `sigmas`, and of all line points.
+Scales robust_scales(const Problem& problem, const State& state, double sigmas) {
+  std::array<double, std::max(kMostEdges, kMostLinePoints)> sizes;
+  const bool all = all_count(problem.edges);
   int count = 0;
   for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
-    if (edge.clean || !only_clean) sizes[count++] = std::abs(residual) / edge.sigma;
+    const double size = std::abs(residual) / edge.sigma;
+    if ((edge.clean || all) && size < sigmas) sizes[count++] = size;
   });
   Scales scales;
   scales.edges = scale_of(sizes.data(), count);
@@ -192,20 +212,32 @@ constexpr double kFinalLine = 0.06;
 
 Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem) {
   constexpr double kSigma = 2.3e-4;  // of an edge, about; radians
+  constexpr double kConsensus = 0.6;
+  constexpr double kWideStep = 0.05;  // radians: above it one step a width will do
   constexpr int kMostSteps = 12;
   constexpr double kSettled = 1e-7;
   const double final_width = problem.options.loss_width;
   State state{guess, Vector2d::Zero()};
-  for (double width = start_width / kSigma; width > 4.0 * final_width; width *= 0.5) {
-    step(state, linearize(problem, state, {width, std::clamp(width * kSigma, kFinalLine, kStartLine)}, {}));
-  }
-  const Width width{final_width, kFinalLine};
-  Scales scales;
-  for (int round = 0; round < 2; ++round) {
-    scales = robust_scales(problem, state);
-    for (int i = 0; i < kMostSteps; ++i) {
-      if (step(state, linearize(problem, state, width, scales)) < kSettled) break;
+  State agreed = state;
+  double agreed_width = HUGE_VAL;
+  for (double width = start_width / kSigma;; width = std::max(final_width, 0.5 * width)) {
+    const double line = std::clamp(width * kSigma, kFinalLine, kStartLine);
+    const int steps = width * kSigma > kWideStep ? 1 : 3;
+    for (int i = 0; i < steps; ++i) {
+      if (step(state, linearize(problem, state, {width, line}, {})) < kSettled) break;
     }
+    // The narrowest width at which most edges still agree.
+    if (agreed_width == HUGE_VAL || consensus(problem, state, width) > kConsensus) {
+      agreed = state;
+      agreed_width = width;
+    }
+    if (width <= final_width) break;
+  }
+  state = agreed;
+  const Width width{final_width, kFinalLine};
+  const Scales scales = robust_scales(problem, state, agreed_width);
+  for (int i = 0; i < kMostSteps; ++i) {
+    if (step(state, linearize(problem, state, width, scales)) < kSettled) break;
   }
   Candidate candidate;
   candidate.world_from_robot = state.pose;

@@ -16,16 +16,17 @@ namespace movis::localization {
 //   edge    r = φ − (azimuth of the silhouette's corner as seen from the camera's viewpoint − β) − s b,
 //           s = +1 for the left edge, −1 for the right one; the silhouette is that of goal_silhouette.h
 //   line    r = signed distance of the point, placed in the field, from the middle of the nearest line (line_map.h)
-// Loss: Geman–McClure, ρ(u) = ½ u² c²/(c² + u²) of u = r/σ. Its width shrinks from the start's uncertainty to c = 4 in
-// the end (graduated non-convexity: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al., RA-L 5(2),
-// 2020). An edge that something covers is an outlier and loses its weight, also when the scan did not notice.
-// Line points of one line err together as well: all of them weigh no more than `line_points` independent ones.
+// Loss: Geman–McClure, ρ(u) = ½ u² c²/(c² + u²) of u = r/σ. Its width shrinks from the start's uncertainty to c = 4
+// in the end (graduated non-convexity: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al., RA-L 5(2),
+// 2020), but not below the narrowest at which six in ten of the clean edges agree: where those spread more than their
+// sigmas tell, as with a rig that is not what its file says, all sigmas grow by their robust scale. An edge that
+// something covers is an outlier and loses its weight, also when the scan did not notice. Line points of one line err
+// together as well: all of them weigh no more than `line_points` independent ones, and they have a scale of their own.
 //
 // Start without a guess: places on a lattice over the field, the heading of each by the edges' circular mean, the best of
 // them refined; where the edges do not suffice, by lines (line_match.h).
 //
-// Covariance of (x, y, β): of the weighted normal equations at the solution with b eliminated, times the square of the
-// residuals' robust scale where that is above 1: a rig that is not as its file says shows in the residuals.
+// Covariance of (x, y, β): the inverse of the weighted normal equations, the biases eliminated.
 // Fails with
 //   no_goal, one_goal, no_landmark  not enough was seen: of coloured goals none, one or both, or of lines
 //   ambiguous     another pose fits nearly as well. The pose given is one of them; where it is the half turn that is
@@ -35,7 +36,7 @@ namespace movis::localization {
 // With white goals (field.yaml) only lines are used: ok with `symmetric` set, right up to the half turn.
 // Allocates nothing, after the first call in a thread.
 struct NlsOptions {
-  double edge_floor_deg = 0.008;  // sigma added to each edge's own: the silhouette's model, the lens's
+  double edge_floor_deg = 0.011;  // sigma added to each edge's own: the silhouette's model, the lens's
   double edge_bias_deg = 0.015;
   double line_floor = 0.003;  // sigma added to each line point's own, metres
   double line_points = 25.0;  // that all line points count for at most
