@@ -90,6 +90,29 @@ TEST(Experiment, InterruptLosesNothing) {
   EXPECT_EQ(content(part + "/summary.json"), content(whole + "/summary.json"));
 }
 
+// One spot, two headings, one draw, and the paper's methods among the localizers.
+TEST(Experiment, SelfLocalization) {
+  const test::TemporaryFolder folder;
+  const std::string data = MOVIS_SOURCE_DIR "/data/";
+  const fs::path file = folder.write(
+      "spots.yaml", "experiment: self-localization\nrig: " + data + "rigs/movis.yaml\nrobot: " + data +
+                        "robots/miniature.yaml\nlook: " + data + "looks/hall.yaml\ncolours: " + data +
+                        "colours/default.yaml\nfield: " + data +
+                        "fields/paper.yaml\nspots: [{name: E, place: [0, 0]}]\nheading_step_deg: 180\ncalibration: "
+                        "{points: 12}\ncoloured_draws: 1\nwhite_draws: 0\n");
+  const std::string command = kProgram + " experiment " + file.string() + " --out " + (folder.path() / "out").string();
+  const test::ProgramRun run = test::run_program(command + " --seed 5");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find("1 spots, 2 headings"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("composed"), std::string::npos) << run.output;
+  EXPECT_LE(std::count(run.output.begin(), run.output.end(), '\n'), 27) << run.output;
+  for (const char* name : {"rows.csv", "summary.json", "index.html"}) {
+    EXPECT_TRUE(fs::exists(folder.path() / "out" / name)) << name;
+  }
+  const test::ProgramRun replay = test::run_program(command + " --replay 1");
+  EXPECT_EQ(replay.exit_code, 0) << replay.output;
+}
+
 TEST(Experiment, WhatCannotWorkIsRefused) {
   const test::TemporaryFolder folder;
   const std::string out = " --out " + folder.path().string();
@@ -100,6 +123,7 @@ TEST(Experiment, WhatCannotWorkIsRefused) {
   } cases[] = {{"measuremnt", "did you mean 'measurement'", 1},
                {"/absent.yaml", "/absent.yaml", 1},
                {small_experiment(folder, "images: {drws: 1}\n").string(), "drws", 1},
+               {folder.write("kind.yaml", "experiment: shooting\n").string(), "measurement, self-localization", 1},
                {"measurement --jobs 0", "--jobs", 2},
                {"measurement --seed -1", "--seed", 2},
                {"measurement --replay 3", "rows.csv", 1},

@@ -136,6 +136,48 @@ void scan_bearings(benchmark::State& state) {
 }
 BENCHMARK(scan_bearings)->Unit(benchmark::kMicrosecond);
 
+// Line points and what hides the floor.
+void scan_floor(benchmark::State& state) {
+  const Scene& scene = field_scene();
+  std::vector<scan::Scanner> scanners;
+  for (int i = 0; i < static_cast<int>(scene.rig.cameras.size()); ++i) {
+    scanners.emplace_back(scene.rig, i, colours(), scan::ScanOptions{}, scene.field->line);
+  }
+  std::vector<LinePoint> lines;
+  std::vector<ObstacleSight> obstacles;
+  for (auto _ : state) {
+    lines.clear();
+    obstacles.clear();
+    for (std::size_t i = 0; i < scanners.size(); ++i) {
+      scanners[i].scan_floor(scene.images.frames[i].view, lines, obstacles);
+    }
+    benchmark::DoNotOptimize(lines.data());
+  }
+}
+BENCHMARK(scan_floor)->Unit(benchmark::kMicrosecond);
+
+// OpenCV's way to white on the floor: threshold of white in HSV beside carpet, thinned to the stretches' middles by a
+// distance transform. It ends with a mask of middles to a pixel; ours has points finer than that, with sigma.
+void floor_opencv(benchmark::State& state) {
+  const Scene& scene = field_scene();
+  cv::Mat hsv, carpet, white, beside, distance, widest, middles;
+  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, {9, 9});
+  for (auto _ : state) {
+    for (const cv::Mat& image : scene.images.memory) {
+      cv::cvtColor(image, hsv, cv::COLOR_BGR2HSV);
+      cv::inRange(hsv, cv::Scalar(45, 40, 25), cv::Scalar(85, 255, 255), carpet);
+      cv::inRange(hsv, cv::Scalar(0, 0, 120), cv::Scalar(180, 60, 255), white);
+      cv::dilate(carpet, beside, kernel);
+      cv::bitwise_and(white, beside, white);
+      cv::distanceTransform(white, distance, cv::DIST_L2, 3);
+      cv::dilate(distance, widest, cv::Mat());
+      middles = (distance >= widest) & white;
+      benchmark::DoNotOptimize(middles.data);
+    }
+  }
+}
+BENCHMARK(floor_opencv)->Unit(benchmark::kMicrosecond);
+
 void tick(benchmark::State& state, const char* name) {
   const Scene scene = load(name);
   pipeline::Pipeline pipeline(scene.rig, scene.field, colours(), {}, localization::find_localizer("composed"));
@@ -172,6 +214,8 @@ BENCHMARK(read_annuli)->Unit(benchmark::kMicrosecond);
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return movis::bench::run_and_compare(
-      argc, argv, {{"scan_histograms", "scan_opencv_remap"}, {"scan_bearings", "scan_opencv_remap"}});
+  return movis::bench::run_and_compare(argc, argv,
+                                       {{"scan_histograms", "scan_opencv_remap"},
+                                        {"scan_bearings", "scan_opencv_remap"},
+                                        {"scan_floor", "floor_opencv"}});
 }

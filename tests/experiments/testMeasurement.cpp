@@ -116,7 +116,7 @@ TEST(Measurement, KnowledgeOfTheRigPays) {
 TEST(MeasurementRows, AreTheSameForAnyNumberOfJobs) {
   const test::TemporaryFolder folder;
   const MeasurementSettings settings = small_settings();
-  MeasurementRun run;
+  ExperimentRun run;
   for (const int jobs : {1, 3}) {
     run.jobs = jobs;
     run_measurement(settings, run, folder.path() / std::to_string(jobs));
@@ -132,7 +132,7 @@ TEST(MeasurementRows, ResumeAfterInterruption) {
   const test::TemporaryFolder folder;
   const MeasurementSettings settings = small_settings();
   run_measurement(settings, {}, folder.path() / "whole");
-  MeasurementRun stopped;
+  ExperimentRun stopped;
   stopped.progress = [](std::size_t done, std::size_t) {
     if (done == 5) throw Error("stopped");
   };
@@ -140,7 +140,7 @@ TEST(MeasurementRows, ResumeAfterInterruption) {
   const auto part = folder.path() / "part/rows.csv";
   std::ofstream(part, std::ios::app) << "4711,0.1.0,half a li";
   std::size_t first_done = 0;
-  MeasurementRun resumed;
+  ExperimentRun resumed;
   resumed.resume = true;
   resumed.progress = [&](std::size_t done, std::size_t) { first_done = first_done == 0 ? done : first_done; };
   run_measurement(settings, resumed, folder.path() / "part");
@@ -155,7 +155,7 @@ TEST(MeasurementRows, OfAnotherRunAreRefused) {
   settings.bearing_draws = 1;
   run_measurement(settings, {}, folder.path());
   test::expect_error([&] { run_measurement(settings, {}, folder.path()); }, {"rows.csv", "--resume"});
-  MeasurementRun run;
+  ExperimentRun run;
   run.resume = true;
   run.seed = 2;
   test::expect_error([&] { run_measurement(settings, run, folder.path()); }, {"rows.csv", "--seed 1"});
@@ -205,7 +205,7 @@ TEST(MeasurementRows, ThatAreNotOnesOfTheExperimentAreRefused) {
       {"1,", "1000000,", {"rows.csv:3", "no row 1000000"}},
       {"1,", "0,", {"rows.csv:3", "column system"}},
   };
-  MeasurementRun resume;
+  ExperimentRun resume;
   resume.resume = true;
   for (const auto& [from, to, message] : cases) {
     std::ofstream(file, std::ios::binary) << good;
@@ -226,7 +226,7 @@ TEST(MeasurementRows, ReadingChangesNoFile) {
   MeasurementSettings settings = small_settings();
   settings.alone_draws = 0;
   settings.bearing_draws = 1;
-  MeasurementRun resume;
+  ExperimentRun resume;
   resume.resume = true;
   for (const char* foreign : {"precious single line", "a,b\n1,2\nhalf"}) {
     const auto file = folder.write("rows.csv", foreign);
@@ -247,7 +247,7 @@ TEST(MeasurementRows, ReadingChangesNoFile) {
 TEST(MeasurementRows, PlacesThatCannotBeWrittenAreRefused) {
   const test::TemporaryFolder folder;
   const MeasurementSettings settings = small_settings();
-  MeasurementRun run;
+  ExperimentRun run;
   run.progress = [](std::size_t, std::size_t) { FAIL() << "measured"; };
   for (const char* name : {"rows.csv", "summary.json", "index.html"}) {
     const auto out = folder.path() / (std::string("with-") + name);
@@ -279,7 +279,7 @@ TEST(Measurement, LatticeUnderTheRobotEnds) {
 TEST(MeasurementRows, Replay) {
   const test::TemporaryFolder folder;
   const MeasurementSettings settings = small_settings();
-  MeasurementRun run;
+  ExperimentRun run;
   run.seed = 3;
   const auto rows = run_measurement(settings, run, folder.path());
   for (const std::size_t i : {std::size_t{0}, std::size_t{77}, std::size_t{300}, rows.size() - 1}) {

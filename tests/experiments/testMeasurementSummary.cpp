@@ -73,7 +73,7 @@ TEST(MeasurementSummary, RatioIsPaired) {
     rows.push_back(row("vertical", Knowledge::nominal, draw, 0, draw == 0 ? 2.0 : -6.0));
     rows.push_back(row("movis-pairs", Knowledge::corrected, draw, 0, draw == 0 ? 1.0 : 3.0));
   }
-  const MeasurementRatio ratio =
+  const Ratio ratio =
       ratio_of(rows, Level::bearings, "vertical", Knowledge::nominal, "movis-pairs", Knowledge::corrected);
   EXPECT_DOUBLE_EQ(ratio.ratio, 2.0);
   EXPECT_DOUBLE_EQ(ratio.interval.low, 2.0);

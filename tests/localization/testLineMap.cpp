@@ -48,7 +48,9 @@ TEST(LineMap, DistancesFromEveryKindOfLine) {
         const LineMap::Offset offset = map.offset(point);
         EXPECT_NEAR(std::abs(offset.distance), expected.distance, 1e-12) << point.transpose();
         EXPECT_NEAR(std::abs(offset.normal.dot(mirrored(expected.normal, x, y))), 1.0, 1e-12) << point.transpose();
-        if (point.norm() < 15.0) EXPECT_NEAR(map.distance(point), expected.distance, 0.05) << point.transpose();
+        if (point.norm() < 15.0) {
+          EXPECT_NEAR(map.distance(point), expected.distance, 0.05) << point.transpose();
+        }
       }
     }
   }
@@ -63,8 +65,12 @@ TEST(LineMap, NearMeansWhite) {
     for (double y = -9.2; y < 9.2; y += 0.0411) {
       const double distance = std::abs(map.offset({x, y}).distance);
       const bool white = test::is_white(field, x, y);
-      if (distance < 0.0624) ASSERT_TRUE(white) << x << ' ' << y;
-      if (distance > 0.0885) ASSERT_FALSE(white) << x << ' ' << y;
+      if (distance < 0.0624) {
+        ASSERT_TRUE(white) << x << ' ' << y;
+      }
+      if (distance > 0.0885) {
+        ASSERT_FALSE(white) << x << ' ' << y;
+      }
     }
   }
 }

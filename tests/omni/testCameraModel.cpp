@@ -49,6 +49,11 @@ UnifiedSphere folding_sphere() {
   return model;
 }
 
+// At 640 × 480 the horizon lies on a circle of 221 pixels, and the model ends just inside it.
+Radial radial() {
+  return {1.57, 0.0071, 0.8, 321.0, 238.0, 220.0};
+}
+
 struct Case {
   const char* label;
   CameraModel model;
@@ -66,7 +71,8 @@ class EveryModel : public testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(CameraModel, EveryModel,
                          testing::Values(Case{"hyperboloid", mirror()}, Case{"below_one", sphere(0.8)},
                                          Case{"paraboloid", sphere(1.0)}, Case{"above_one", sphere(1.3)},
-                                         Case{"distorted", distorted_sphere()}, Case{"folding", folding_sphere()}),
+                                         Case{"distorted", distorted_sphere()}, Case{"folding", folding_sphere()},
+                                         Case{"radial", radial()}),
                          [](const auto& tested) { return std::string(tested.param.label); });
 
 // Every pixel of the picture that has a ray projects back onto itself, and most of the mirror has rays.

@@ -52,6 +52,21 @@ TEST(ColoursFile, ReadsWhatStandsInIt) {
   EXPECT_DOUBLE_EQ(blue.brightness_max, 0.8);
 }
 
+TEST(ColoursFile, TypicalColoursOfCarpetAndLines) {
+  const std::string bounds = "hue_deg: [0, 360], chroma: [0.1, 1.0], brightness: [0.1, 1.0]";
+  EXPECT_FALSE(colours_of(ball_with("[5, 38]")).typical.field);
+  EXPECT_FALSE(colours_of(ball_with("[5, 38]") + "field: {" + bounds + "}\n").typical.field);
+  const Colours colours = colours_of(ball_with("[5, 38]") + "field: {" + bounds + ", typical: [50, 128, 70]}\nline: {" +
+                                     bounds + ", typical: [228, 228, 225.5]}\n");
+  ASSERT_TRUE(colours.typical.field && colours.typical.line);
+  EXPECT_EQ(*colours.typical.field, Eigen::Vector3d(50, 128, 70));
+  EXPECT_EQ(*colours.typical.line, Eigen::Vector3d(228, 228, 225.5));
+  expect_error([&] { colours_of("ball: {" + bounds + ", typical: [1, 2, 3]}\n"); }, {"colours.yaml:1", "'typical'"});
+  expect_error([&] { colours_of("field: {" + bounds + ", typical: [1, 2]}\n"); }, {"colours.yaml:1", "field.typical"});
+  expect_error([&] { colours_of("field: {" + bounds + ", typical: [0, 2, 3]}\n"); },
+               {"colours.yaml:1", "field.typical", "range"});
+}
+
 TEST(ColoursFile, EveryHueAndWrappedHues) {
   EXPECT_NEAR(colours_of(ball_with("[0, 360]")).classes[0].hue_width, 2.0 * kPi, 1e-12);
   for (const char* hue : {"[350, 20]", "[-10, 20]", "[350, -340]"}) {

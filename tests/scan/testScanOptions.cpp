@@ -24,6 +24,12 @@ TEST(ScanOptions, AreReadStrictly) {
   EXPECT_EQ(options.threshold.minimum, ThresholdOptions{}.minimum);
   EXPECT_EQ(options.refine.border_px, 3);
   EXPECT_EQ(options.refine.dark, RefineOptions{}.dark);
+  const ScanOptions dim = options_of("light: {brightness_band: 0.1, least_gain: 0.2}\n");
+  EXPECT_EQ(dim.light.brightness_band, 0.1);
+  EXPECT_EQ(dim.light.least_gain, 0.2);
+  EXPECT_EQ(dim.light.balance_band, LightOptions{}.balance_band);
+  expect_error([] { options_of("light: {band: 0.1}\n"); }, {"options.yaml:1", "'band'", "balance_band"});
+  expect_error([] { options_of("light: {most_gain: 0.9}\n"); }, {"options.yaml:1", "light.most_gain", "range"});
   expect_error([] { options_of("bin: 360\n"); }, {"options.yaml:1", "'bin'", "bins"});
   expect_error([] { options_of("bins: 20\n"); }, {"options.yaml:1", "bins", "range"});
   expect_error([] { options_of("bins: 360.5\n"); }, {"options.yaml:1", "bins", "whole"});

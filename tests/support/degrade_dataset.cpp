@@ -1,4 +1,5 @@
-// Copies a data set with blur and noise added to its images:  degrade-dataset DIR OUT [BLUR_PX NOISE_LEVELS SEED]
+// Copies a data set with blur, noise and other light added to its images:
+//   degrade-dataset DIR OUT [BLUR_PX NOISE_LEVELS SEED [RED_GAIN GREEN_GAIN BLUE_GAIN]]
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -9,8 +10,8 @@
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
-  if (argc != 3 && argc != 6) {
-    std::fprintf(stderr, "usage: %s DIR OUT [BLUR_PX NOISE_LEVELS SEED]\n", argv[0]);
+  if (argc != 3 && argc != 6 && argc != 9) {
+    std::fprintf(stderr, "usage: %s DIR OUT [BLUR_PX NOISE_LEVELS SEED [RED_GAIN GREEN_GAIN BLUE_GAIN]]\n", argv[0]);
     return 2;
   }
   try {
@@ -18,10 +19,12 @@ int main(int argc, char** argv) {
     const fs::path to = argv[2];
     movis::test::Degradation degradation;
     std::uint64_t seed = 1;
-    if (argc == 6) {
-      degradation = {std::atof(argv[3]), std::atof(argv[4])};
+    if (argc >= 6) {
+      degradation.blur_px = std::atof(argv[3]);
+      degradation.noise_levels = std::atof(argv[4]);
       seed = std::strtoull(argv[5], nullptr, 10);
     }
+    if (argc == 9) degradation.gains = {std::atof(argv[6]), std::atof(argv[7]), std::atof(argv[8])};
     const movis::grab::Dataset dataset = movis::grab::read_dataset(from);
     fs::create_directories(to);
     for (const char* name : {"rig.yaml", "field.yaml", "frames.csv", "truth.csv", "odometry.csv"}) {

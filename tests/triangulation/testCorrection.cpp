@@ -106,6 +106,35 @@ TEST(Correction, PrincipalPointInAzimuth) {
   }
 }
 
+// By hand: seen under azimuth 0 and the elevation of the floor 1.0 m away, the direction is turned by 0.02 rad and raised
+// by 0.01 rad, to the floor h/tan(atan(h/1.0 m) − 0.01) away. A radian of elevation is (h² + r²)/h = 4.25 m.
+TEST(Correction, LinePointsOnTheFloor) {
+  constexpr double kHigh = 0.25;
+  Correction correction = correction_of({0.02}, {0.01});
+  correction.cameras[0].position = {0.1, 0.2, kHigh};
+  correction.cameras[0].elevation_sigma = 0.003;
+  LinePoint line;
+  line.camera = 0;
+  line.elevation = -std::atan(kHigh);
+  line.sigma = 0.004;
+  line.sigma_on_floor = 0.017;  // 4.25 m · 0.004
+  std::vector<LinePoint> lines{line};
+  correct(correction, lines);
+  const double distance = kHigh / std::tan(std::atan(kHigh) - 0.01);
+  EXPECT_NEAR(lines[0].azimuth, 0.02, 1e-12);
+  EXPECT_NEAR(lines[0].point.x(), 0.1 + distance * std::cos(0.02), 1e-9);
+  EXPECT_NEAR(lines[0].point.y(), 0.2 + distance * std::sin(0.02), 1e-9);
+  EXPECT_NEAR(lines[0].sigma, 0.005, 1e-9);  // 3-4-5
+  EXPECT_NEAR(lines[0].sigma_on_floor, 4.25 * 0.005, 1e-9);
+
+  std::vector<ObstacleSight> sights{{0, 0.1, -0.1, 1.0, 0.02}};
+  correct(correction, sights);
+  EXPECT_NEAR(sights[0].left, 0.12, 1e-12);
+  EXPECT_NEAR(sights[0].right, -0.08, 1e-12);
+  EXPECT_NEAR(sights[0].distance, distance, 1e-9);
+  EXPECT_GT(sights[0].sigma, 0.02);
+}
+
 // 0.02 sec e cos φ at e = 0: +0.02 at φ = 0, nothing at φ = ±π/2. An object from −π/2 to π/2 keeps its edges.
 TEST(Correction, EdgesAtTheirOwnAzimuths) {
   Bearing bearing = bearing_at(0.0, 0.0);

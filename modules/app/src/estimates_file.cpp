@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "movis/localization/object_position.h"
+
 namespace movis::app {
 namespace {
 
@@ -42,9 +44,9 @@ void EstimatesFile::add(const pipeline::Estimate& estimate) {
   } else {
     fmt::format_to(out, ",,,,,,,,,");
   }
-  if (ball_ok && fix_ok) {
-    const Eigen::Vector2d in_field = fix.world_from_robot * Eigen::Vector2d(ball.point.head<2>());
-    fmt::format_to(out, ",{:.6f},{:.6f}", in_field.x(), in_field.y());
+  const localization::ObjectPosition position = localization::object_position(fix, ball);
+  if (position.status == localization::ObjectStatus::ok) {
+    fmt::format_to(out, ",{:.6f},{:.6f}", position.in_field.x(), position.in_field.y());
   } else {
     fmt::format_to(out, ",,");
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -28,13 +29,23 @@ Magnitude magnitude(const Errors& errors, Quantity quantity) {
   return result;
 }
 
-std::string pose_line(const std::string& label, const std::vector<PoseError>& errors) {
+// A table of more labels would be none to read.
+constexpr std::size_t kMostLabels = 20;
+
+constexpr const char* kPoseHeader =
+    "  spot     ok  of   mean cm    max cm  |X| mean  |Y| mean  |β| mean°  |β| max°    NEES/3\n";
+
+std::string pose_line(const std::string& label, int frames, const std::vector<PoseError>& errors) {
+  const std::string head = fmt::format("  {:<6}{:>5}{:>4}", label, errors.size(), frames);
+  if (errors.empty()) return head + "\n";
   const Magnitude position = magnitude(errors, [](const PoseError& e) { return std::hypot(e.x, e.y); });
   const Magnitude x = magnitude(errors, [](const PoseError& e) { return e.x; });
   const Magnitude y = magnitude(errors, [](const PoseError& e) { return e.y; });
   const Magnitude beta = magnitude(errors, [](const PoseError& e) { return e.beta; });
-  return fmt::format("  {:<8}{:>5}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>11.3f}\n", label, errors.size(),
-                     100.0 * position.mean, 100.0 * position.max, 100.0 * x.mean, 100.0 * y.mean, degrees(beta.mean));
+  const Magnitude nees = magnitude(errors, [](const PoseError& e) { return e.nees; });
+  return fmt::format("{}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>11.3f}{:>10.3f}{:>10.2f}\n", head, 100.0 * position.mean,
+                     100.0 * position.max, 100.0 * x.mean, 100.0 * y.mean, degrees(beta.mean), degrees(beta.max),
+                     nees.mean);
 }
 
 }  // namespace
@@ -50,9 +61,11 @@ BallError ball_error(const Eigen::Vector2d& ball_in_robot, const grab::Truth& tr
           (ball_in_robot - expected).norm()};
 }
 
-PoseError pose_error(const Pose2& world_from_robot, const grab::Truth& truth) {
-  return {world_from_robot.x - truth.world_from_robot.x, world_from_robot.y - truth.world_from_robot.y,
-          turn(truth.world_from_robot.beta, world_from_robot.beta)};
+PoseError pose_error(const Fix& fix, const grab::Truth& truth) {
+  const Eigen::Vector3d error(fix.world_from_robot.x - truth.world_from_robot.x,
+                              fix.world_from_robot.y - truth.world_from_robot.y,
+                              turn(truth.world_from_robot.beta, fix.world_from_robot.beta));
+  return {error.x(), error.y(), error.z(), error.dot(fix.covariance.ldlt().solve(error)) / 3.0};
 }
 
 void Evaluation::add(const pipeline::Estimate& estimate, const grab::Truth& truth) {
@@ -61,9 +74,9 @@ void Evaluation::add(const pipeline::Estimate& estimate, const grab::Truth& trut
     balls_.push_back(ball_error(estimate.ball_in_robot.point.head<2>(), truth));
   }
   if (estimate.fix.status != FixStatus::no_field) ++poses_sought_;
-  if (estimate.fix.status == FixStatus::ok) {
-    poses_.push_back({truth.label, pose_error(estimate.fix.world_from_robot, truth)});
-  }
+  Poses& poses = poses_[truth.label];
+  ++poses.frames;
+  if (estimate.fix.status == FixStatus::ok) poses.errors.push_back(pose_error(estimate.fix, truth));
 }
 
 std::string Evaluation::table() const {
@@ -83,19 +96,16 @@ std::string Evaluation::table() const {
   }
   fmt::format_to(out, "\n");
   if (poses_sought_ == 0) return text;
-  fmt::format_to(out, "  pose: {} of {} found\n", poses_.size(), frames_);
-  if (poses_.empty()) return text;
-  fmt::format_to(out, "  spot        n   mean cm    max cm  |X| mean  |Y| mean  |β| mean°\n");
-  std::map<std::string, std::vector<PoseError>> by_label;
   std::vector<PoseError> all;
-  for (const LabelledPose& pose : poses_) {
-    by_label[pose.label].push_back(pose.error);
-    all.push_back(pose.error);
+  for (const auto& [label, poses] : poses_) all.insert(all.end(), poses.errors.begin(), poses.errors.end());
+  fmt::format_to(out, "  pose: {} of {} found\n", all.size(), frames_);
+  if (all.empty()) return text;
+  text += kPoseHeader;
+  if (poses_.size() > 1 && poses_.size() <= kMostLabels) {
+    for (const auto& [label, poses] : poses_)
+      text += pose_line(label.empty() ? "-" : label, poses.frames, poses.errors);
   }
-  if (by_label.size() > 1 || by_label.count("") == 0) {
-    for (const auto& [label, errors] : by_label) text += pose_line(label.empty() ? "-" : label, errors);
-  }
-  return text + pose_line("all", all);
+  return text + pose_line("all", frames_, all);
 }
 
 }  // namespace movis::app

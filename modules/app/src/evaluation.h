@@ -21,11 +21,12 @@ struct BallError {
 struct PoseError {
   double x = 0.0, y = 0.0;  // field frame, metres
   double beta = 0.0;        // radians
+  double nees = 0.0;        // eᵀ C⁻¹ e / 3: 1 in the mean where the covariances are honest
 };
 
 Eigen::Vector2d true_ball_in_robot(const grab::Truth& truth);
 BallError ball_error(const Eigen::Vector2d& ball_in_robot, const grab::Truth& truth);
-PoseError pose_error(const Pose2& world_from_robot, const grab::Truth& truth);
+PoseError pose_error(const Fix& fix, const grab::Truth& truth);
 
 // Collects errors and says what came of them, in tables for standard output.
 class Evaluation {
@@ -34,14 +35,15 @@ class Evaluation {
   std::string table() const;
 
  private:
-  struct LabelledPose {
-    std::string label;
-    PoseError error;
+  // The frames of one label.
+  struct Poses {
+    int frames = 0;
+    std::vector<PoseError> errors;  // of the fixes that are ok
   };
   int frames_ = 0;
   int poses_sought_ = 0;
   std::vector<BallError> balls_;
-  std::vector<LabelledPose> poses_;
+  std::map<std::string, Poses> poses_;
 };
 
 }  // namespace movis::app

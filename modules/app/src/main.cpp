@@ -6,10 +6,12 @@
 
 #include "bound_command.h"
 #include "calibrate_correction.h"
+#include "calibrate_curve.h"
 #include "calibrate_rig.h"
 #include "demo_command.h"
 #include "experiment_command.h"
 #include "interrupt.h"
+#include "locate_command.h"
 #include "movis/core/version.h"
 #include "movis/localization/localizer.h"
 #include "movis/triangulation/triangulator.h"
@@ -121,12 +123,38 @@ void add_calibrate_rig(CLI::App& calibrate, movis::app::CalibrateRigArguments& a
   rig->callback([&arguments] { movis::app::calibrate_rig(arguments); });
 }
 
+void add_calibrate_curve(CLI::App& calibrate, movis::app::CalibrateCurveArguments& arguments) {
+  CLI::App* curve = calibrate.add_subcommand(
+      "curve", "The curve and image centre of a radial camera, from the white-line pixels of one picture");
+  curve->add_option("--points", arguments.points, "The pixels: `column row` a line")->required();
+  curve->add_option("--rig", arguments.rig, "The rig to start from")->required();
+  curve->add_option("--field", arguments.field, "The field whose lines they are")->required();
+  curve->add_option("--out", arguments.out, "The calibrated rig.yaml")->required();
+  curve->add_option("--camera", arguments.camera, "Which one saw the pixels; needed where the rig has several");
+  curve->add_flag("--holdout", arguments.holdout, "Also fit to every second pixel alone and measure the others");
+  curve->callback([&arguments] { movis::app::calibrate_curve(arguments); });
+}
+
 void add_calibrate(CLI::App& program, movis::app::CalibrateRigArguments& rig,
-                   movis::app::CalibrateCorrectionArguments& correction) {
+                   movis::app::CalibrateCorrectionArguments& correction, movis::app::CalibrateCurveArguments& curve) {
   CLI::App* calibrate = program.add_subcommand("calibrate", "Tell a rig's individual differences from a data set");
   calibrate->require_subcommand(1);
   add_calibrate_rig(*calibrate, rig);
   add_calibrate_correction(*calibrate, correction);
+  add_calibrate_curve(*calibrate, curve);
+}
+
+void add_locate(CLI::App& program, movis::app::LocateArguments& arguments) {
+  CLI::App* locate = program.add_subcommand("locate", "One fix from the white-line pixels of one picture");
+  locate->add_option("--points", arguments.points, "The pixels: `column row` a line")->required();
+  locate->add_option("--rig", arguments.rig, "The cameras: a rig.yaml")->required();
+  locate->add_option("--field", arguments.field, "The field whose lines they are")->required();
+  locate->add_option("--guess", arguments.guess, "Look only around this pose: x,y,beta_deg; default: everywhere")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(in_range(-1e4, 1e4));
+  locate->add_option("--camera", arguments.camera, "Which one saw the pixels; needed where the rig has several");
+  locate->callback([&arguments] { movis::app::locate(arguments); });
 }
 
 void add_bound(CLI::App& program, movis::app::BoundArguments& arguments) {
@@ -164,8 +192,7 @@ void add_experiment(CLI::App& program, movis::app::ExperimentArguments& argument
   CLI::Option* jobs = experiment->add_option("--jobs", arguments.jobs, "Threads; default: as many as there are cores")
                           ->check(CLI::Range(1, 1024));
   experiment->add_flag("--quick", arguments.quick, "A small version, in seconds");
-  CLI::Option* resume =
-      experiment->add_flag("--resume", arguments.resume, "Go on with the rows that the folder holds");
+  CLI::Option* resume = experiment->add_flag("--resume", arguments.resume, "Go on with the rows that the folder holds");
   experiment->add_option("--replay", arguments.replay, "Recompute this row alone and print it beside the stored one")
       ->check(whole_numbers)
       ->excludes(seed)
@@ -187,7 +214,10 @@ int main(int argc, char** argv) {
   add_track(program, track_arguments);
   movis::app::CalibrateRigArguments rig_arguments;
   movis::app::CalibrateCorrectionArguments correction_arguments;
-  add_calibrate(program, rig_arguments, correction_arguments);
+  movis::app::CalibrateCurveArguments curve_arguments;
+  add_calibrate(program, rig_arguments, correction_arguments, curve_arguments);
+  movis::app::LocateArguments locate_arguments;
+  add_locate(program, locate_arguments);
   movis::app::BoundArguments bound_arguments;
   add_bound(program, bound_arguments);
   movis::app::ExperimentArguments experiment_arguments;

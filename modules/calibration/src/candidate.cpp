@@ -16,6 +16,7 @@ omni::Camera bare(const omni::Camera& camera) {
   result.mask.clear();
   if (auto* mirror = std::get_if<omni::Hyperboloid>(&result.model)) mirror->rim_radius *= 2.0;
   if (auto* sphere = std::get_if<omni::UnifiedSphere>(&result.model)) sphere->max_elevation = kPi / 2.0;
+  if (auto* radial = std::get_if<omni::Radial>(&result.model)) radial->max_radius_px *= 2.0;
   return result;
 }
 

@@ -25,6 +25,7 @@ class Eyes {
 };
 
 std::unique_ptr<Eyes> make_bearing_eyes(const MeasurementSettings& settings, const omni::Rig& truth);
-std::unique_ptr<Eyes> make_image_eyes(const MeasurementSettings& settings, const omni::Rig& truth);
+std::unique_ptr<Eyes> make_image_eyes(const omni::Rig& truth, const control::RobotModel& robot, const sim::Look& look,
+                                      const scan::Colours& colours);
 
 }  // namespace movis::experiments

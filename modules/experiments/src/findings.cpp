@@ -22,12 +22,6 @@ const char* title(const MeasurementCell& cell) {
   return kSystems.at(static_cast<std::size_t>(cell.system)).title;
 }
 
-const char* rig_words(Knowledge knowledge) {
-  constexpr std::array<const char*, kKnowledges.size()> kWords{"the nominal rig", "the nominal rig and its correction",
-                                                               "the calibrated rig", "the true rig"};
-  return kWords.at(static_cast<std::size_t>(knowledge));
-}
-
 std::string on(Level level) {
   return level == Level::bearings ? "On bearings" : "On images";
 }
@@ -65,7 +59,7 @@ Finding orders(const MeasurementSummary& summary) {
   return finding;
 }
 
-std::string text_of(const MeasurementRatio& r) {
+std::string text_of(const Ratio& r) {
   if (!std::isfinite(r.interval.low)) return fmt::format("{:.2f} times", r.ratio);
   return fmt::format("{:.2f} times ({:.2f} to {:.2f})", r.ratio, r.interval.low, r.interval.high);
 }
@@ -94,7 +88,7 @@ Finding against_vertical(const std::vector<MeasurementRow>& rows) {
   for (const Level level : {Level::images, Level::bearings}) {
     std::string ratios, remarkable, others;
     for (const Comparison& c : kComparisons) {
-      const MeasurementRatio r = ratio_of(rows, level, c.vertical, c.of_vertical, "movis-pairs", c.of_movis);
+      const Ratio r = ratio_of(rows, level, c.vertical, c.of_vertical, "movis-pairs", c.of_movis);
       if (!std::isfinite(r.ratio)) continue;
       ratios += fmt::format("{}{} {}", ratios.empty() ? "" : "; ", c.words, text_of(r));
       if (!std::isfinite(r.interval.low)) continue;  // one draw does not tell what is chance

@@ -10,14 +10,15 @@ namespace {
 
 class ImageEyes : public Eyes {
  public:
-  ImageEyes(const MeasurementSettings& settings, const omni::Rig& truth)
-      : settings_(settings), renderer_(truth, {}, settings.robot, settings.look) {}
+  ImageEyes(const omni::Rig& truth, const control::RobotModel& robot, const sim::Look& look,
+            const scan::Colours& colours)
+      : renderer_(truth, {}, robot, look), colours_(colours) {}
 
   int believe(const omni::Rig& rig) override {
     std::vector<scan::Scanner> scanners;
     scanners.reserve(rig.cameras.size());
     for (int camera = 0; camera < static_cast<int>(rig.cameras.size()); ++camera) {
-      scanners.emplace_back(rig, camera, settings_.colours, scan::ScanOptions{});
+      scanners.emplace_back(rig, camera, colours_, scan::ScanOptions{});
     }
     believed_.push_back(std::move(scanners));
     return static_cast<int>(believed_.size()) - 1;
@@ -35,16 +36,17 @@ class ImageEyes : public Eyes {
   }
 
  private:
-  const MeasurementSettings& settings_;
   sim::Renderer renderer_;
+  scan::Colours colours_;
   grab::FrameSet images_;
   std::vector<std::vector<scan::Scanner>> believed_;
 };
 
 }  // namespace
 
-std::unique_ptr<Eyes> make_image_eyes(const MeasurementSettings& settings, const omni::Rig& truth) {
-  return std::make_unique<ImageEyes>(settings, truth);
+std::unique_ptr<Eyes> make_image_eyes(const omni::Rig& truth, const control::RobotModel& robot, const sim::Look& look,
+                                      const scan::Colours& colours) {
+  return std::make_unique<ImageEyes>(truth, robot, look, colours);
 }
 
 }  // namespace movis::experiments

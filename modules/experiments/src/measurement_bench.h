@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "drawn_rig.h"
 #include "eyes.h"
 #include "movis/calibration/sightings.h"
 #include "movis/experiments/measurement.h"
@@ -11,11 +12,7 @@
 
 namespace movis::experiments {
 
-inline constexpr const char* kNotCalibrated = "not_calibrated";  // the status where nothing could be fitted
-
-// One rig of one draw on the bench: its true cameras, and what is known of them. The draw's cameras and the noise at a
-// place follow from the seed, the draw and the place alone, so that rigs are compared with the same numbers: cameras of
-// the same number differ from their drawings alike, and have the same noise.
+// One rig of one draw on the bench: its true cameras, and what is known of them.
 class MeasurementBench {
  public:
   MeasurementBench(const MeasurementSettings& settings, std::uint64_t seed, const MeasurementBlock& block);
@@ -37,10 +34,9 @@ class MeasurementBench {
   calibration::Sightings sightings_by(int believed, const omni::Rig& rig);
   Belief corrected(const calibration::Sightings& sightings) const;
   Belief calibrated(const calibration::Sightings& sightings);
-  std::uint64_t noise_seed(std::uint64_t place) const;
 
   const MeasurementSettings& settings_;
-  std::uint64_t seed_;
+  RigDraw draw_;
   MeasurementBlock block_;
   Lattice lattice_;
   omni::Rig nominal_;
@@ -52,8 +48,5 @@ class MeasurementBench {
 // Of a block: which knowledges, and which systems are of its rig.
 std::vector<Knowledge> knowledges_of(Differences differences);
 std::vector<int> systems_of(RigIndex rig);
-
-// How far from the origin the robot and the ball beside it reach, metres.
-double clearance_of(const MeasurementSettings& settings);
 
 }  // namespace movis::experiments

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "movis/experiments/measurement.h"
+#include "row_file.h"
 
 namespace movis::experiments {
 
@@ -24,24 +24,11 @@ class RowPlan {
   std::array<Lattice, kDifferences.size()> lattices_;
 };
 
-// The columns of rows.csv, and a row as a line of it, without its end.
-std::string rows_header();
+// rows.csv of this experiment. The plan must outlive the format.
+RowFormat format_of(const MeasurementSettings& settings, const RowPlan& plan);
+
+// A row as a line, without its end, and back.
 std::string line_of(const MeasurementRow& row, const MeasurementSettings& settings, std::uint64_t seed);
-
-// The rows of a file as they stand.
-struct StoredRows {
-  std::map<std::int64_t, std::string> lines;  // by number
-  std::uint64_t seed = 0;                     // means nothing where there are no lines
-};
-
-// Only reads; a last line that was not written to its end counts as not there. Throws an Error with file and line where
-// the file is not one of ours, its rows are of another version or of other settings, or a row is not one of this
-// experiment.
-StoredRows read_rows(const std::filesystem::path& file, const MeasurementSettings& settings, const RowPlan& plan);
-
-// Back from a line. Everything but status and errors follows from the row's number: an Error, which begins with
-// `where`, unless each cell is what line_of writes.
-MeasurementRow parse_row(const std::string& line, const MeasurementSettings& settings, std::uint64_t seed,
-                         const RowPlan& plan, const std::string& where);
+MeasurementRow row_of(const std::string& line, const RowPlan& plan);
 
 }  // namespace movis::experiments

@@ -1,49 +1,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
-#include "measurement_bench.h"
-#include "movis/core/angle.h"
+#include "drawn_rig.h"
 #include "movis/core/yaml.h"
 #include "movis/experiments/measurement.h"
 #include "movis/sim/scene.h"
+#include "settings_file.h"
 
 namespace movis::experiments {
 namespace {
 
 namespace fs = std::filesystem;
-
-// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo), of what the settings were read from.
-class Digest {
- public:
-  void add(const std::string& bytes) {
-    for (const char byte : bytes) value_ = (value_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  }
-  void add_file(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    add(std::string(std::istreambuf_iterator<char>(stream), {}));
-  }
-  std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
-
-fs::path named_file(const YamlMap& map, const char* key, Digest& digest) {
-  fs::path file = map.file().parent_path() / map.text(key);
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) {
-    map.fail(key, fmt::format("names {}, which is a folder; name a YAML file", file.string()));
-  }
-  if (!fs::exists(file, ignored)) {
-    map.fail(key, fmt::format("names {}, which does not exist; paths are relative to the experiment's folder",
-                              file.string()));
-  }
-  digest.add_file(file);
-  return file;
-}
 
 void read_rigs(const YamlMap& map, MeasurementSettings& settings, Digest& digest) {
   constexpr std::array<const char*, kRigs> kKeys{"single", "vertical", "vertical_short", "movis"};
@@ -62,19 +30,6 @@ void read_rigs(const YamlMap& map, MeasurementSettings& settings, Digest& digest
   }
 }
 
-void read_differences(const YamlMap& map, omni::Deviation& sigma) {
-  map.allow({"position", "yaw_deg", "tilt_deg", "focal", "principal_point_px"});
-  const auto read = [&](const char* key, Range range, double unit, int first, int count) {
-    if (map.has(key)) sigma.segment(first, count).setConstant(unit * map.number(key, range));
-  };
-  read("position", {0.0, 0.05}, 1.0, 0, 3);
-  read("yaw_deg", {0.0, 10.0}, radians(1.0), 3, 1);
-  read("tilt_deg", {0.0, 5.0}, radians(1.0), 4, 2);
-  read("focal", {0.0, 0.1}, 1.0, 6, 1);
-  read("principal_point_px", {0.0, 20.0}, 1.0, 7, 2);
-}
-
-constexpr Range kDraws{0, 10000};
 constexpr Range kStep{0.05, 4.0};  // metres
 
 void read_bearings(const YamlMap& map, MeasurementSettings& settings) {
@@ -108,11 +63,11 @@ void check_steps(const YamlMap& map, const MeasurementSettings& settings) {
     map.fail(fmt::format("a step of {} m does not divide the lattice's half width of {} m; choose one that does", step,
                          settings.half_width));
   }
-  if (clearance_of(settings) > settings.half_width) {
+  if (clearance_of(settings.robot.radius) > settings.half_width) {
     map.fail("lattice",
              fmt::format("has a half width of {} m, of which the robot, {} m in radius, and a ball beside it "
                          "cover {} m; raise half_width, or name a smaller robot",
-                         settings.half_width, settings.robot.radius, clearance_of(settings)));
+                         settings.half_width, settings.robot.radius, clearance_of(settings.robot.radius)));
   }
   const double corner = settings.half_width * std::sqrt(2.0) + sim::kBallRadius;
   if (corner > settings.look.hall_half_width * std::sqrt(2.0)) {

@@ -2,84 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "findings.h"
 #include "measurement_bench.h"
-#include "movis/core/random.h"
 #include "movis/sim/scene.h"
+#include "resampling.h"
 
 namespace movis::experiments {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kResamples = 2000;
-constexpr std::uint64_t kBootstrap = 1;  // seed: the same interval for the same rows
-
-struct Sum {
-  double sum = 0.0;
-  int count = 0;
-
-  void add(double value) {
-    sum += value;
-    ++count;
-  }
-  void add(const Sum& other) {
-    sum += other.sum;
-    count += other.count;
-  }
-  double mean() const { return count > 0 ? sum / count : kUnknown; }
-};
-
-Interval middle95(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
-  if (values.empty()) return {kUnknown, kUnknown};
-  std::sort(values.begin(), values.end());
-  const std::size_t cut = values.size() / 40;
-  return {values[cut], values[values.size() - 1 - cut]};
-}
-
-// Resamples draws, with all their points: B. Efron, R. Tibshirani, An introduction to the bootstrap, 1993, chapter 8.
-template <typename Statistic>
-Interval bootstrap(std::size_t draws, Statistic statistic) {
-  if (draws < 2) return {kUnknown, kUnknown};
-  RandomStream random = make_stream(kBootstrap, 0);
-  std::uniform_int_distribution<std::size_t> pick(0, draws - 1);
-  std::vector<double> values;
-  std::vector<std::size_t> picked(draws);
-  for (int i = 0; i < kResamples; ++i) {
-    for (std::size_t& draw : picked) draw = pick(random);
-    values.push_back(statistic(picked));
-  }
-  return middle95(std::move(values));
-}
-
-ErrorStatistics statistics_of(std::vector<double> magnitudes, const std::vector<Sum>& by_draw) {
-  ErrorStatistics result{kUnknown, {kUnknown, kUnknown}, kUnknown, kUnknown, kUnknown, kUnknown};
-  if (magnitudes.empty()) return result;
-  std::sort(magnitudes.begin(), magnitudes.end());
-  const std::size_t n = magnitudes.size();
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const double magnitude : magnitudes) {
-    sum += magnitude;
-    squares += magnitude * magnitude;
-  }
-  result.mean = sum / static_cast<double>(n);
-  result.rms = std::sqrt(squares / static_cast<double>(n));
-  result.median = n % 2 == 1 ? magnitudes[n / 2] : 0.5 * (magnitudes[n / 2 - 1] + magnitudes[n / 2]);
-  result.percentile95 = magnitudes[static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(n))) - 1];
-  result.largest = magnitudes.back();
-  result.mean_interval = bootstrap(by_draw.size(), [&](const std::vector<std::size_t>& picked) {
-    Sum resampled;
-    for (const std::size_t draw : picked) resampled.add(by_draw[draw]);
-    return resampled.mean();
-  });
-  return result;
-}
 
 std::vector<Sum> sums_by_draw(const std::vector<const MeasurementRow*>& rows, double MeasurementRow::*error) {
   std::map<int, Sum> sums;
@@ -250,8 +183,8 @@ const MeasurementCell* MeasurementSummary::find(Level level, Differences differe
   return nullptr;
 }
 
-MeasurementRatio ratio_of(const std::vector<MeasurementRow>& rows, Level level, const char* one,
-                          Knowledge one_knowledge, const char* other, Knowledge other_knowledge) {
+Ratio ratio_of(const std::vector<MeasurementRow>& rows, Level level, const char* one, Knowledge one_knowledge,
+               const char* other, Knowledge other_knowledge) {
   const int first = system_index(one);
   const int second = system_index(other);
   std::map<Case, std::pair<std::optional<double>, std::optional<double>>> cases;
@@ -269,18 +202,7 @@ MeasurementRatio ratio_of(const std::vector<MeasurementRow>& rows, Level level, 
   }
   std::vector<std::pair<Sum, Sum>> pairs;
   for (const auto& [draw, pair] : draws) pairs.push_back(pair);
-  const auto ratio = [&](const std::vector<std::size_t>& picked) {
-    Sum above, below;
-    for (const std::size_t i : picked) {
-      above.add(pairs[i].first);
-      below.add(pairs[i].second);
-    }
-    return above.mean() / below.mean();
-  };
-  std::vector<std::size_t> all(pairs.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  if (all.empty()) return {kUnknown, {kUnknown, kUnknown}};
-  return {ratio(all), bootstrap(pairs.size(), ratio)};
+  return ratio_of(pairs);
 }
 
 MeasurementSummary summarize_measurement(const MeasurementSettings& settings, std::uint64_t seed,

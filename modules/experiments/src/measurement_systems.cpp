@@ -77,9 +77,4 @@ const char* word(Differences differences) {
   return kWords.at(static_cast<std::size_t>(differences));
 }
 
-const char* word(Knowledge knowledge) {
-  constexpr std::array<const char*, kKnowledges.size()> kWords{"nominal", "corrected", "calibrated", "true"};
-  return kWords.at(static_cast<std::size_t>(knowledge));
-}
-
 }  // namespace movis::experiments

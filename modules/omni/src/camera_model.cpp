@@ -20,6 +20,7 @@ const char* name(const CameraModel& model) {
   struct Name {
     const char* operator()(const Hyperboloid&) const { return "hyperboloid"; }
     const char* operator()(const UnifiedSphere&) const { return "unified"; }
+    const char* operator()(const Radial&) const { return "radial"; }
   };
   return std::visit(Name{}, model);
 }

@@ -4,6 +4,21 @@
 
 namespace movis::omni {
 
+namespace {
+
+template <typename Model>
+void scale_image(Model& model, double factor) {
+  model.fu *= factor;
+  model.fv *= factor;
+}
+
+void scale_image(Radial& model, double factor) {
+  model.b /= factor;
+  model.max_radius_px *= factor;
+}
+
+}  // namespace
+
 Deviation individual_differences() {
   Deviation sigma;
   sigma << 0.002, 0.002, 0.002, radians(0.6), radians(0.25), radians(0.25), 0.004, 1.5, 1.5;
@@ -18,8 +33,7 @@ Camera deviated(const Camera& nominal, const Deviation& deviation) {
   camera.tilt_y += deviation[5];
   std::visit(
       [&](auto& model) {
-        model.fu *= 1.0 + deviation[6];
-        model.fv *= 1.0 + deviation[6];
+        scale_image(model, 1.0 + deviation[6]);
         model.u0 += deviation[7];
         model.v0 += deviation[8];
       },

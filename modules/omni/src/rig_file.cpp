@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <set>
+#include <utility>
 
 #include "movis/core/angle.h"
 #include "movis/core/yaml.h"
@@ -53,6 +56,37 @@ UnifiedSphere read_unified(const YamlMap& camera) {
   return model;
 }
 
+Radial read_radial(const YamlMap& camera, double height) {
+  const YamlMap map = camera.map("radial");
+  map.allow({"a", "b", "u0", "v0", "max_radius_px"});
+  if (!(height > 0.0)) {
+    camera.fail("position", "`model: radial` is known by what it shows of the floor, so the camera must be above it");
+  }
+  Radial model;
+  model.a = map.number("a", {0.001, 100.0});
+  model.b = map.number("b", {1e-6, 1.0});
+  model.u0 = map.number("u0", kPixel);
+  model.v0 = map.number("v0", kPixel);
+  model.height = height;
+  map.read_number("max_radius_px", {1.0, 1e5}, model.max_radius_px);
+  return model;
+}
+
+// The blocks of the models; those of the others than `model` must not stand in the file.
+CameraModel read_model(const YamlMap& camera, double height) {
+  const std::string model = camera.one_of("model", {"hyperboloid", "unified", "radial"});
+  for (const auto& [block, owner] : {std::pair{"hyperboloid", "hyperboloid"},
+                                     {"pinhole", "hyperboloid"},
+                                     {"unified", "unified"},
+                                     {"radial", "radial"}}) {
+    if (model != owner && camera.has(block))
+      camera.fail(block, fmt::format("stands beside `model: {}`; remove it or change the model", model));
+  }
+  if (model == "hyperboloid") return read_hyperboloid(camera);
+  if (model == "unified") return read_unified(camera);
+  return read_radial(camera, height);
+}
+
 PixelFormat read_format(const YamlMap& image) {
   static constexpr PixelFormat kFormats[] = {
       PixelFormat::bgr8,        PixelFormat::rgb8,        PixelFormat::rgba8,       PixelFormat::mono8,
@@ -66,7 +100,8 @@ PixelFormat read_format(const YamlMap& image) {
 }
 
 Camera read_camera(const YamlMap& map) {
-  map.allow({"name", "position", "yaw_deg", "tilt_deg", "image", "model", "hyperboloid", "pinhole", "unified", "mask"});
+  map.allow({"name", "position", "yaw_deg", "tilt_deg", "image", "model", "hyperboloid", "pinhole", "unified", "radial",
+             "mask"});
   Camera camera;
   camera.name = map.text("name");
   const std::vector<double> position = map.numbers("position", 3, kPosition);
@@ -85,15 +120,7 @@ Camera read_camera(const YamlMap& map) {
   }
   if (image.has("format")) camera.format = read_format(image);
 
-  if (map.one_of("model", {"hyperboloid", "unified"}) == "hyperboloid") {
-    if (map.has("unified")) map.fail("unified", "stands beside `model: hyperboloid`; remove it or change the model");
-    camera.model = read_hyperboloid(map);
-  } else {
-    for (const char* key : {"hyperboloid", "pinhole"}) {
-      if (map.has(key)) map.fail(key, "stands beside `model: unified`; remove it or change the model");
-    }
-    camera.model = read_unified(map);
-  }
+  camera.model = read_model(map, camera.position.z());
   if (map.has("mask")) camera.mask = map.file().parent_path() / map.text("mask");
   return camera;
 }

@@ -51,19 +51,27 @@ std::string in_degrees(double angle) {
   return best.empty() ? fmt::format("{}", degrees(angle)) : best;
 }
 
-std::string text(const Hyperboloid& model) {
+std::string text(const Hyperboloid& model, double /*height*/) {
   return fmt::format(
       "  hyperboloid: {{a: {}, b: {}, rim_radius: {}}}\n"
       "  pinhole: {{fu: {}, fv: {}, u0: {}, v0: {}}}\n",
       model.a, model.b, model.rim_radius, model.fu, model.fv, model.u0, model.v0);
 }
 
-std::string text(const UnifiedSphere& model) {
+std::string text(const UnifiedSphere& model, double /*height*/) {
   return fmt::format(
       "  unified: {{xi: {}, fu: {}, fv: {}, u0: {}, v0: {},\n"
       "            k1: {}, k2: {}, p1: {}, p2: {}, skew: {}, max_elevation_deg: {}}}\n",
       model.xi, model.fu, model.fv, model.u0, model.v0, model.k1, model.k2, model.p1, model.p2, model.skew,
       in_degrees(model.max_elevation));
+}
+
+std::string text(const Radial& model, double height) {
+  const std::string limit =
+      std::isfinite(model.max_radius_px) ? fmt::format(", max_radius_px: {}", model.max_radius_px) : "";
+  // For the camera's own height: what belongs to the mirror is a over the height it was measured at.
+  return fmt::format("  radial: {{a: {}, b: {}, u0: {}, v0: {}{}}}\n", model.a * (height / model.height), model.b,
+                     model.u0, model.v0, limit);
 }
 
 std::string mask_text(const fs::path& mask, const fs::path& rig_file) {
@@ -81,7 +89,7 @@ std::string text(const Camera& camera, const fs::path& file) {
   result += fmt::format("  image: {{width: {}, height: {}{}}}\n", camera.width, camera.height,
                         camera.format ? fmt::format(", format: {}", name(*camera.format)) : "");
   result += fmt::format("  model: {}\n", name(camera.model));
-  result += std::visit([](const auto& model) { return text(model); }, camera.model);
+  result += std::visit([&](const auto& model) { return text(model, camera.position.z()); }, camera.model);
   if (!camera.mask.empty()) result += fmt::format("  mask: {}\n", mask_text(camera.mask, file));
   return result;
 }

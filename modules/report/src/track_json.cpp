@@ -1,10 +1,10 @@
 #include "track_json.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "json.h"
 #include "movis/core/angle.h"
+#include "movis/localization/object_position.h"
 
 namespace movis::report {
 namespace {
@@ -189,17 +189,9 @@ Json fix_error(const std::optional<Fix>& fix, const std::optional<Pose2>& truth)
           {"beta_deg", degree(degrees(turn(truth->beta, fix->world_from_robot.beta)))}};
 }
 
-// The measured ball carried into the field by the measured pose. The covariance is propagated to first order, taking
-// both measurements as independent.
 Json ball_in_field(const PointEstimate& ball, const std::optional<Fix>& fix) {
-  if (ball.status != PointStatus::ok || !fix || fix->status != FixStatus::ok) return nullptr;
-  const Eigen::Vector2d point = fix->world_from_robot * Eigen::Vector2d(ball.point.head<2>());
-  const Eigen::Vector2d arm = point - fix->world_from_robot.translation();
-  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(fix->world_from_robot.beta).toRotationMatrix();
-  Eigen::Matrix<double, 2, 3> by_pose;
-  by_pose << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
-  const Eigen::Matrix2d sum = rotation * ball.covariance.topLeftCorner<2, 2>() * rotation.transpose() +
-                              by_pose * fix->covariance * by_pose.transpose();
+  const auto [status, point, sum] = localization::object_position(fix.value_or(Fix{}), ball);
+  if (status != localization::ObjectStatus::ok) return nullptr;
   return {{"point", vector(point, kMetreDigits)}, {"covariance", covariance(sum)}};
 }
 

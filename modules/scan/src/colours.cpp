@@ -21,7 +21,11 @@ void read_bounds(const YamlMap& map, const char* key, double& min, double& max) 
 }
 
 ColourClass read_class(const YamlMap& map, ObjectClass object) {
-  map.allow({"hue_deg", "chroma", "brightness"});
+  if (object == ObjectClass::field || object == ObjectClass::line) {
+    map.allow({"hue_deg", "chroma", "brightness", "typical"});
+  } else {
+    map.allow({"hue_deg", "chroma", "brightness"});
+  }
   ColourClass colour;
   colour.object = object;
   const std::vector<double> hue = map.numbers("hue_deg", 2, {-360.0, 360.0});
@@ -38,6 +42,12 @@ ColourClass read_class(const YamlMap& map, ObjectClass object) {
   return colour;
 }
 
+std::optional<Eigen::Vector3d> read_typical(const YamlMap& map) {
+  if (!map.has("typical")) return std::nullopt;
+  const std::vector<double> rgb = map.numbers("typical", 3, {1.0, 255.0});
+  return Eigen::Vector3d(rgb[0], rgb[1], rgb[2]);
+}
+
 }  // namespace
 
 Colours read_colours(const std::filesystem::path& file) {
@@ -48,6 +58,8 @@ Colours read_colours(const std::filesystem::path& file) {
     const auto object = static_cast<ObjectClass>(i);
     if (map.has(name(object))) colours.classes.push_back(read_class(map.map(name(object)), object));
   }
+  if (map.has("field")) colours.typical.field = read_typical(map.map("field"));
+  if (map.has("line")) colours.typical.line = read_typical(map.map("line"));
   const bool detects = std::any_of(colours.classes.begin(), colours.classes.end(), [](const ColourClass& colour) {
     return colour.object == ObjectClass::ball || colour.object == ObjectClass::yellow_goal ||
            colour.object == ObjectClass::blue_goal;

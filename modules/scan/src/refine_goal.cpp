@@ -246,18 +246,19 @@ bool refine_goal(const ImageView& image, const PolarMap& map, const std::vector<
   const double bin = 2.0 * kPi / map.bins;
   const Edge right{0, +1, -kPi + segment.first * bin};
   const Edge left{segment.length - 1, -1, -kPi + (segment.first + segment.length) * bin};
-  const auto crossing_at = [&](const Edge& edge) {
+  const auto crossing_at = [&](const Edge& edge, std::uint8_t& flags) {
     // Without a step to be found, the goal ends at the border of what is scanned, or behind something.
     const auto found = refine_edge(image, map, object, goal, edge, segment.length, options, scratch);
     Crossing crossing = found.value_or(Crossing{0.0, bin * bin, true});
     if (crossing.hidden) {
-      bearing.flags |= kCutByObject;
+      flags |= kCutByObject;
       crossing.variance = std::max(crossing.variance, std::pow(0.5 * segment.length * bin, 2));
     }
     return crossing;
   };
-  const Crossing at_right = crossing_at(right);
-  const Crossing at_left = crossing_at(left);
+  const Crossing at_right = crossing_at(right, bearing.right_flags);
+  const Crossing at_left = crossing_at(left, bearing.left_flags);
+  bearing.flags |= bearing.left_flags | bearing.right_flags;
 
   const double floor = radians(options.azimuth_floor_deg);
   bearing.right = wrap_angle(right.azimuth + at_right.offset);

@@ -12,6 +12,17 @@ ThresholdOptions read_threshold_options(const YamlMap& map) {
   return options;
 }
 
+LightOptions read_light_options(const YamlMap& map) {
+  map.allow({"brightness_band", "balance_band", "least_gain", "most_gain", "least_share"});
+  LightOptions options;
+  map.read_number("brightness_band", {0.0, 1.0}, options.brightness_band);
+  map.read_number("balance_band", {0.0, 1.0}, options.balance_band);
+  map.read_number("least_gain", {0.1, 1.0}, options.least_gain);
+  map.read_number("most_gain", {1.0, 5.0}, options.most_gain);
+  map.read_number("least_share", {0.01, 1.0}, options.least_share);
+  return options;
+}
+
 }  // namespace
 
 RefineOptions read_refine_options(const YamlMap& map) {
@@ -31,7 +42,7 @@ RefineOptions read_refine_options(const YamlMap& map) {
 
 ScanOptions read_scan_options(const YamlMap& map) {
   map.allow({"bins", "min_elevation_deg", "max_elevation_deg", "min_object_pixels", "ball_gap_deg", "goal_gap_deg",
-             "sensor_radius", "threshold", "refine"});
+             "sensor_radius", "threshold", "refine", "floor", "light"});
   ScanOptions options;
   map.read_integer("bins", {180.0, 7200.0}, options.bins);
   map.read_number("min_elevation_deg", {-90.0, 90.0}, options.min_elevation_deg);
@@ -45,6 +56,8 @@ ScanOptions read_scan_options(const YamlMap& map) {
   map.read_number("sensor_radius", {0.0, 1.0}, options.sensor_radius);
   if (map.has("threshold")) options.threshold = read_threshold_options(map.map("threshold"));
   if (map.has("refine")) options.refine = read_refine_options(map.map("refine"));
+  if (map.has("light")) options.light = read_light_options(map.map("light"));
+  if (map.has("floor")) options.floor = read_floor_options(map.map("floor"));
   return options;
 }
 

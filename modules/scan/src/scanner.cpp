@@ -16,22 +16,20 @@ constexpr std::int16_t kElsewhere = std::numeric_limits<std::int16_t>::min();
 
 }  // namespace
 
-Scanner::Scanner(const omni::Rig& rig, int camera, const Colours& colours, const ScanOptions& options)
+Scanner::Scanner(const omni::Rig& rig, int camera, const Colours& colours, const ScanOptions& options,
+                 double line_width)
     : camera_(rig.cameras.at(camera)),
       camera_index_(camera),
       options_(options),
       map_(make_polar_map(camera_, options.bins, radians(options.min_elevation_deg),
                           radians(options.max_elevation_deg))),
+      light_(map_, colours, options.light),
       classes_(detected_classes(colours)),
+      sensors_(sensor_sectors(rig, camera, options.sensor_radius)),
       histograms_(options.bins),
       places_(options.bins),
-      scratch_(camera_.width, camera_.height) {
-  for (int other = 0; other < static_cast<int>(rig.cameras.size()); ++other) {
-    const Eigen::Vector2d towards = (rig.cameras[other].position - camera_.position).head<2>();
-    if (other == camera || towards.norm() < 1e-6) continue;  // itself, or one above the other
-    const double reach = std::min(1.0, options.sensor_radius / towards.norm());
-    sensors_.push_back({std::atan2(towards.y(), towards.x()), std::asin(reach)});
-  }
+      scratch_(camera_.width, camera_.height),
+      floor_(camera_, camera, map_, colours, options.floor, line_width, sensors_) {
   stretches_.reserve(map_.scanned_pixels());
   segments_.reserve(kMaxSegments);
   object_.reserve(map_.scanned_pixels());
@@ -55,15 +53,21 @@ void Scanner::check(const ImageView& image) const {
 void Scanner::scan(const ImageView& image, double time_s, std::vector<Bearing>& bearings) {
   check(image);
   stretches_.clear();
-  classify(image, map_.runs, classes_, stretches_);
+  const ImageView adapted = light_.adapt(image);
+  classify(adapted, map_.runs, classes_, stretches_);
   histograms_.fill(map_, stretches_, options_.threshold);
   for (const ObjectClass object : kDetected) {
     Bearing bearing;
     bearing.camera = camera_index_;
     bearing.object = object;
     bearing.time_s = time_s;
-    if (find_object(object, bearing, image)) bearings.push_back(bearing);
+    if (find_object(object, bearing, adapted)) bearings.push_back(bearing);
   }
+}
+
+void Scanner::scan_floor(const ImageView& image, std::vector<LinePoint>& lines,
+                         std::vector<ObstacleSight>& obstacles) {
+  floor_.scan(light_.adapted(image), map_, lines, obstacles);
 }
 
 bool Scanner::find_object(ObjectClass object, Bearing& bearing, const ImageView& image) {
@@ -121,11 +125,14 @@ void Scanner::flag_sensors(Bearing& bearing) const {
            turn(sector.azimuth - sector.half_width, left) > 0.0;
   };
   for (const Sector& sector : sensors_) {
-    const bool hidden = bearing.object == ObjectClass::ball ? overlaps(sector, bearing.right, bearing.left)
-                                                            : overlaps(sector, bearing.left, bearing.left) ||
-                                                                  overlaps(sector, bearing.right, bearing.right);
-    if (hidden) bearing.flags |= kNearSensor;
+    if (bearing.object == ObjectClass::ball) {
+      if (overlaps(sector, bearing.right, bearing.left)) bearing.flags |= kNearSensor;
+      continue;
+    }
+    if (overlaps(sector, bearing.left, bearing.left)) bearing.left_flags |= kNearSensor;
+    if (overlaps(sector, bearing.right, bearing.right)) bearing.right_flags |= kNearSensor;
   }
+  bearing.flags |= bearing.left_flags | bearing.right_flags;
 }
 
 }  // namespace movis::scan

@@ -13,6 +13,7 @@ namespace {
 omni::Camera widened(omni::Camera camera) {
   if (auto* mirror = std::get_if<omni::Hyperboloid>(&camera.model)) mirror->rim_radius *= 1.1;
   if (auto* sphere = std::get_if<omni::UnifiedSphere>(&camera.model)) sphere->max_elevation += 0.05;
+  if (auto* radial = std::get_if<omni::Radial>(&camera.model)) radial->max_radius_px *= 1.1;
   return camera;
 }
 

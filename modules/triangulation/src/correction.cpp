@@ -41,15 +41,27 @@ struct Function {
   static constexpr double kStep = 1e-4;  // radians; the functions are smooth over degrees
 };
 
+// What a camera's functions are evaluated at, and the variances of what they leave there.
+struct Place {
+  Place(const CameraCorrection& camera, double azimuth_seen, double elevation_seen)
+      : in_azimuth{camera.azimuth, azimuth_basis},
+        in_elevation{camera.elevation, elevation_basis},
+        azimuth(azimuth_seen),
+        elevation(std::clamp(elevation_seen, camera.min_elevation, camera.max_elevation)) {
+    const double outside = elevation_seen == elevation ? 0.0 : std::tan(elevation_seen) - std::tan(elevation);
+    const double outside_variance = square(kSigmaOutside * outside);
+    azimuth_variance = square(camera.azimuth_sigma) + outside_variance;
+    elevation_variance = square(camera.elevation_sigma) + outside_variance;
+  }
+
+  Function in_azimuth, in_elevation;
+  double azimuth, elevation;
+  double azimuth_variance, elevation_variance;
+};
+
 void correct(const CameraCorrection& camera, Bearing& bearing) {
-  const Function in_azimuth{camera.azimuth, azimuth_basis};
-  const Function in_elevation{camera.elevation, elevation_basis};
-  const double azimuth = bearing.azimuth;
-  const double elevation = std::clamp(bearing.elevation, camera.min_elevation, camera.max_elevation);
-  const double outside = bearing.elevation == elevation ? 0.0 : std::tan(bearing.elevation) - std::tan(elevation);
-  const double outside_variance = square(kSigmaOutside * outside);
-  const double azimuth_variance = square(camera.azimuth_sigma) + outside_variance;
-  const double elevation_variance = square(camera.elevation_sigma) + outside_variance;
+  const Place place(camera, bearing.azimuth, bearing.elevation);
+  const auto& [in_azimuth, in_elevation, azimuth, elevation, azimuth_variance, elevation_variance] = place;
 
   bearing.azimuth = wrap_angle(azimuth + in_azimuth(azimuth, elevation));
   bearing.elevation = std::clamp(bearing.elevation + in_elevation(azimuth, elevation), -0.5 * kPi, 0.5 * kPi);
@@ -70,6 +82,52 @@ void correct(const CameraCorrection& camera, Bearing& bearing) {
   bearing.radius_covariance *= scale;
 }
 
+// The distance on the floor, from under the viewpoint.
+double floor_distance(double height, double elevation) {
+  constexpr double kFarthest = 20.0;  // metres
+  const double steepness = std::tan(-elevation);
+  return steepness * kFarthest > height ? height / steepness : kFarthest;
+}
+
+void correct(const CameraCorrection& camera, LinePoint& line) {
+  const Place place(camera, line.azimuth, line.elevation);
+  line.azimuth = wrap_angle(line.azimuth + place.in_azimuth(place.azimuth, place.elevation));
+  line.elevation += place.in_elevation(place.azimuth, place.elevation);
+  const double distance = floor_distance(camera.position.z(), line.elevation);
+  line.point = camera.position.head<2>() + distance * Eigen::Vector2d(std::cos(line.azimuth), std::sin(line.azimuth));
+  const double metres_per_radian = line.sigma_on_floor / line.sigma;
+  line.sigma = std::sqrt(square(line.sigma) +
+                         std::max(place.azimuth_variance * square(std::cos(line.elevation)), place.elevation_variance));
+  line.sigma_on_floor = metres_per_radian * line.sigma;
+}
+
+void correct(const CameraCorrection& camera, ObstacleSight& sight) {
+  const double height = camera.position.z();
+  const double elevation = -std::atan2(height, sight.distance);
+  const Place left(camera, sight.left, elevation);
+  const Place right(camera, sight.right, elevation);
+  const double middle = sight.right + 0.5 * turn(sight.right, sight.left);
+  const Place place(camera, middle, elevation);
+  sight.left = wrap_angle(sight.left + left.in_azimuth(left.azimuth, left.elevation));
+  sight.right = wrap_angle(sight.right + right.in_azimuth(right.azimuth, right.elevation));
+  sight.distance = floor_distance(height, elevation + place.in_elevation(place.azimuth, place.elevation));
+  const double metres_per_radian = height + square(sight.distance) / height;
+  sight.sigma = std::sqrt(square(sight.sigma) + square(metres_per_radian) * place.elevation_variance);
+}
+
+// All of one instant, each with its camera's correction.
+template <typename Seen>
+void correct_all(const Correction& correction, const char* what, std::vector<Seen>& all) {
+  if (correction.cameras.empty()) return;
+  for (Seen& seen : all) {
+    if (seen.camera < 0 || seen.camera >= static_cast<int>(correction.cameras.size())) {
+      throw Error("{} is of camera number {}, the correction has {} cameras", what, seen.camera,
+                  correction.cameras.size());
+    }
+    correct(correction.cameras[seen.camera], seen);
+  }
+}
+
 }  // namespace
 
 std::string lens_digest(const omni::Camera& camera) {
@@ -77,6 +135,8 @@ std::string lens_digest(const omni::Camera& camera) {
   const auto add = [&](auto... numbers) { ((text += fmt::format(" {:.9g}", numbers)), ...); };
   if (const auto* h = std::get_if<omni::Hyperboloid>(&camera.model)) {
     add(h->a, h->b, h->rim_radius, h->fu, h->fv, h->u0, h->v0);
+  } else if (const auto* r = std::get_if<omni::Radial>(&camera.model)) {
+    add(r->a / r->height, r->b, r->u0, r->v0, r->max_radius_px);
   } else {
     const auto& u = std::get<omni::UnifiedSphere>(camera.model);
     add(u.xi, u.fu, u.fv, u.u0, u.v0, u.k1, u.k2, u.p1, u.p2, u.skew, u.max_elevation);
@@ -106,14 +166,15 @@ CorrectionBasis elevation_basis(double azimuth, double elevation) {
 }
 
 void correct(const Correction& correction, std::vector<Bearing>& bearings) {
-  if (correction.cameras.empty()) return;
-  for (Bearing& bearing : bearings) {
-    if (bearing.camera < 0 || bearing.camera >= static_cast<int>(correction.cameras.size())) {
-      throw Error("a bearing is of camera number {}, the correction has {} cameras", bearing.camera,
-                  correction.cameras.size());
-    }
-    correct(correction.cameras[bearing.camera], bearing);
-  }
+  correct_all(correction, "a bearing", bearings);
+}
+
+void correct(const Correction& correction, std::vector<LinePoint>& lines) {
+  correct_all(correction, "a line point", lines);
+}
+
+void correct(const Correction& correction, std::vector<ObstacleSight>& sights) {
+  correct_all(correction, "a sight of an obstacle", sights);
 }
 
 }  // namespace movis::triangulation

@@ -70,10 +70,11 @@ constexpr Entry kTriangulators[] = {{"pairs", {ball_by_pairs, goal_by_pairs, req
 }  // namespace
 
 Options read_options(const YamlMap& map) {
-  map.allow({"pairs", "joint"});
+  map.allow({"pairs", "joint", "obstacles"});
   Options options;
   if (map.has("pairs")) options.pairs = read_pairs_options(map.map("pairs"));
   if (map.has("joint")) options.joint = read_joint_options(map.map("joint"));
+  if (map.has("obstacles")) options.obstacles = read_obstacle_options(map.map("obstacles"));
   return options;
 }
 

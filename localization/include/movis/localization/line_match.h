@@ -39,7 +39,7 @@ namespace movis::localization {
 struct LineMatchOptions {
   double outliers = 0.3;        // the largest share of points that may lie on no line
   double largest_sigma = 0.25;  // metres; a point that is less certain tells no line from the next one
-  double distinct = 0.1;       // the share of points that the best pose must explain and no other one does
+  double distinct = 0.1;        // the share of points that the best pose must explain and no other one does
   int fewest_points = 12;
 };
 

@@ -43,6 +43,8 @@ struct Bearing {
 
   double weight = 0.0;  // evidence: the sum of the pixels' memberships
   std::uint8_t flags = 0;
+  std::uint8_t left_flags = 0;  // those that concern this edge of a goal; `flags` has them too
+  std::uint8_t right_flags = 0;
   double time_s = 0.0;
 
   bool clean() const { return flags == 0; }

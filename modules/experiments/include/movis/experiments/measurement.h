@@ -3,11 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "movis/control/robot_model.h"
+#include "movis/experiments/experiment.h"
 #include "movis/omni/deviation.h"
 #include "movis/scan/colours.h"
 #include "movis/sim/look.h"
@@ -27,23 +27,13 @@ enum class Level { bearings, images };
 // Which individual differences the cameras have.
 enum class Differences { all, none, position, yaw, tilt, focal, principal_point };
 
-// What is known of the rig.
-//   nominal     its drawing
-//   corrected   its drawing, and the paper's error correction fitted to balls at known places
-//   calibrated  a rig fitted to the same balls
-//   true_rig    the rig itself: what no calibration can better
-enum class Knowledge { nominal, corrected, calibrated, true_rig };
-
 inline constexpr std::array kLevels{Level::bearings, Level::images};
 inline constexpr std::array kDifferences{
     Differences::all,  Differences::none,  Differences::position,       Differences::yaw,
     Differences::tilt, Differences::focal, Differences::principal_point};
-inline constexpr std::array kKnowledges{Knowledge::nominal, Knowledge::corrected, Knowledge::calibrated,
-                                        Knowledge::true_rig};
 
 const char* word(Level level);
 const char* word(Differences differences);
-const char* word(Knowledge knowledge);
 
 // The rigs that are compared, by their place in MeasurementSettings::rigs.
 enum RigIndex { kSingleRig, kVerticalRig, kShortVerticalRig, kMovisRig };
@@ -122,25 +112,15 @@ struct Lattice {
 };
 Lattice lattice_of(const MeasurementSettings& settings, Differences differences);
 
-struct MeasurementRun {
-  std::uint64_t seed = 1;
-  int jobs = 1;                                                     // threads; results do not depend on their number
-  bool resume = false;                                              // goes on with the blocks that rows.csv holds
-  std::function<void(std::size_t done, std::size_t all)> progress;  // after every block, if given; may throw to stop
-};
-
 // Measures and writes `folder`/rows.csv, where the rows of every finished block stand at once; in the end they are in
 // order. Throws an Error, before it measures and with rows.csv as it was, where the folder or one of rows.csv,
 // summary.json and index.html in it cannot be written; where rows.csv exists and is not to be resumed, or is to be
 // resumed and does not exist, is of other settings, another seed or another version, or holds a row that is not one of
 // this experiment.
-std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings, const MeasurementRun& run,
+std::vector<MeasurementRow> run_measurement(const MeasurementSettings& settings, const ExperimentRun& run,
                                             const std::filesystem::path& folder);
 
 // A row of `folder`/rows.csv as it stands there, and recomputed. Writes nothing.
-struct ReplayedRow {
-  std::string header, stored, recomputed;  // lines of CSV
-};
 ReplayedRow replay_measurement(const MeasurementSettings& settings, std::int64_t row,
                                const std::filesystem::path& folder);
 

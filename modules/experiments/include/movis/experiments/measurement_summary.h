@@ -9,16 +9,6 @@
 
 namespace movis::experiments {
 
-// Of magnitudes of errors; NaN where there are none.
-struct ErrorStatistics {
-  double mean = 0.0;
-  Interval mean_interval;  // 95 %, bootstrap over draws: points of one draw share its cameras
-  double median = 0.0;
-  double rms = 0.0;
-  double percentile95 = 0.0;
-  double largest = 0.0;
-};
-
 // Mean magnitudes over the lattice.
 struct MeanBound {
   double distance = 0.0;   // metres
@@ -49,18 +39,6 @@ struct MeasurementCell {
   std::vector<double> first_direction;
 };
 
-// How much larger one system's mean distance error is than another's, over the points of a draw that both answered.
-struct MeasurementRatio {
-  double ratio = 0.0;
-  Interval interval;  // 95 %, bootstrap over draws, paired
-};
-
-// Sentences that follow from the numbers.
-struct Finding {
-  std::string topic;
-  std::vector<std::string> sentences;
-};
-
 struct MeasurementSummary {
   MeasurementSettings settings;
   std::uint64_t seed = 0;
@@ -73,8 +51,9 @@ struct MeasurementSummary {
 
 int system_index(const char* name);
 
-MeasurementRatio ratio_of(const std::vector<MeasurementRow>& rows, Level level, const char* one,
-                          Knowledge one_knowledge, const char* other, Knowledge other_knowledge);
+// How much larger one system's mean distance error is than another's, over the points of a draw that both answered.
+Ratio ratio_of(const std::vector<MeasurementRow>& rows, Level level, const char* one, Knowledge one_knowledge,
+               const char* other, Knowledge other_knowledge);
 
 MeasurementSummary summarize_measurement(const MeasurementSettings& settings, std::uint64_t seed,
                                          const std::vector<MeasurementRow>& rows);

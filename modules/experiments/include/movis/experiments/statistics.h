@@ -12,6 +12,22 @@ struct Interval {
   double high = 0.0;
 };
 
+// Of magnitudes of errors; NaN where there are none.
+struct ErrorStatistics {
+  double mean = 0.0;
+  Interval mean_interval;  // 95 %, bootstrap over draws: points of one draw share its cameras
+  double median = 0.0;
+  double rms = 0.0;
+  double percentile95 = 0.0;
+  double largest = 0.0;
+};
+
+// A mean as a multiple of another; NaN where there are none.
+struct Ratio {
+  double ratio = 0.0;
+  Interval interval;  // 95 %, bootstrap over draws, paired
+};
+
 // The 95 % interval of a rate by Wilson's score (E. B. Wilson, J. Am. Stat. Assoc. 22, 1927):
 //   (p + z²/2n ± z √(p(1−p)/n + z²/4n²)) / (1 + z²/n),  p = successes/trials, z = 1.96
 // Without a trial nothing is known: [0, 1].

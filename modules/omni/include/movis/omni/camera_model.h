@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "movis/omni/hyperboloid.h"
+#include "movis/omni/radial.h"
 #include "movis/omni/unified_sphere.h"
 
 namespace movis::omni {
@@ -13,7 +14,7 @@ namespace movis::omni {
 // the mirror's axis; image u grows along x, v along y) and these functions, which dispatch to the model:
 //   project    ray in the camera frame (any length > 0) → pixel; nothing outside the model's domain
 //   unproject  pixel → unit ray in the camera frame; nothing where no ray of the domain arrives
-using CameraModel = std::variant<Hyperboloid, UnifiedSphere>;
+using CameraModel = std::variant<Hyperboloid, UnifiedSphere, Radial>;
 
 using PixelJacobian = Eigen::Matrix<double, 2, 3>;  // ∂(u, v)/∂(x, y, z) of the ray, pixels per unit of the ray
 

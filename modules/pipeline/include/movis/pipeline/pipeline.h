@@ -59,8 +59,9 @@ struct Pipeline {
   localization::Localizer localizer;
   triangulation::Triangulator triangulator;
   triangulation::Correction correction;  // of the bearings that the scan finds; without cameras: none
-  std::vector<scan::Scanner> scanners;  // one a camera
-  Estimate estimate;                    // of the last step
+  std::vector<scan::Scanner> scanners;   // one a camera
+  std::vector<ObstacleSight> sights;     // of the last step, of all cameras
+  Estimate estimate;                     // of the last step
 };
 
 // One tick. Allocates nothing after the first. The result is pipeline.estimate.

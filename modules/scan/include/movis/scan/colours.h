@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "movis/core/bearing.h"
@@ -20,8 +22,15 @@ struct ColourClass {
   double brightness_min = 0.0, brightness_max = 1.0;
 };
 
+// What most pixels of a surface show in the light that the classes are made for: red, green, blue in bytes. By them
+// another light is recognized (light.h).
+struct TypicalColours {
+  std::optional<Eigen::Vector3d> field, line;
+};
+
 struct Colours {
   std::vector<ColourClass> classes;
+  TypicalColours typical = {};
 };
 
 // Reads colours.yaml strictly. Any subset of the classes may stand in it.

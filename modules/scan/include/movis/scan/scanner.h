@@ -9,9 +9,12 @@
 #include "movis/omni/rig.h"
 #include "movis/scan/classify.h"
 #include "movis/scan/colours.h"
+#include "movis/scan/floor_scan.h"
 #include "movis/scan/histogram.h"
+#include "movis/scan/light.h"
 #include "movis/scan/polar_map.h"
 #include "movis/scan/refine.h"
+#include "movis/scan/sector.h"
 
 namespace movis::scan {
 
@@ -25,16 +28,21 @@ struct ScanOptions {
   double sensor_radius = 0.03;  // of another sensor unit, metres: azimuths that it may hide
   ThresholdOptions threshold;
   RefineOptions refine;
+  FloorOptions floor;
+  LightOptions light;
 };
 
 ScanOptions read_scan_options(const YamlMap& map);
 
 // The scan of one camera (§2.2 and §2.3): colour classes in memory order with a precomputed azimuth bin for every
-// pixel, histograms over azimuth, adaptive threshold, detection of ball and goals, bearings finer than a bin.
+// pixel, histograms over azimuth, adaptive threshold, detection of ball and goals, bearings finer than a bin. All of it
+// on the image as it would look in the light that the classes are made for.
 // Allocates nothing after construction.
 class Scanner {
  public:
-  Scanner(const omni::Rig& rig, int camera, const Colours& colours, const ScanOptions& options);
+  // `line_width` of the field's lines, metres; 0: none are sought.
+  Scanner(const omni::Rig& rig, int camera, const Colours& colours, const ScanOptions& options,
+          double line_width = 0.0);
 
   Scanner(Scanner&&) = default;
   Scanner& operator=(Scanner&&) = default;
@@ -45,7 +53,11 @@ class Scanner {
   // another size or format than the rig says.
   void scan(const ImageView& image, double time_s, std::vector<Bearing>& bearings);
 
+  // Appends what this camera sees of the floor, in an image that scan() has taken.
+  void scan_floor(const ImageView& image, std::vector<LinePoint>& lines, std::vector<ObstacleSight>& obstacles);
+
   // Of the last scan.
+  const Light& light() const { return light_.light(); }
   const Histogram& histogram(ObjectClass object) const { return histograms_[object]; }
   const PolarMap& polar_map() const { return map_; }
 
@@ -59,11 +71,8 @@ class Scanner {
   int camera_index_;
   ScanOptions options_;
   PolarMap map_;
+  LightAdapter light_;
   std::vector<IntegerClass> classes_;
-  struct Sector {
-    double azimuth = 0.0;
-    double half_width = 0.0;
-  };
   std::vector<Sector> sensors_;  // azimuths in which other sensor units stand
   std::vector<Stretch> stretches_;
   Histograms histograms_;
@@ -71,6 +80,7 @@ class Scanner {
   std::vector<std::int16_t> places_;  // by bin: its place in the segment at hand, or kElsewhere
   std::vector<ObjectPixel> object_;   // its pixels
   RefineScratch scratch_;
+  FloorScan floor_;
 };
 
 }  // namespace movis::scan

@@ -8,6 +8,8 @@
 
 #include "movis/core/angle.h"
 #include "movis/core/bearing.h"
+#include "movis/core/line_point.h"
+#include "movis/core/obstacle.h"
 #include "movis/omni/rig.h"
 
 namespace movis::triangulation {
@@ -83,5 +85,12 @@ void write_correction(const Correction& correction, const std::filesystem::path&
 // as above, and adds the variances of what the correction leaves. Allocates nothing. A bearing of
 // a camera that the correction has not throws.
 void correct(const Correction& correction, std::vector<Bearing>& bearings);
+
+// The same for line points, whose places on the floor are worked out anew, and for obstacles' azimuths and distances.
+// Directions that would not meet the floor any more are taken to meet it at the greatest distance, 20 m. The variances
+// of what is left are added to those across a line and along the sight, the larger of azimuth's and elevation's: they
+// are not known to lie one way or the other.
+void correct(const Correction& correction, std::vector<LinePoint>& lines);
+void correct(const Correction& correction, std::vector<ObstacleSight>& sights);
 
 }  // namespace movis::triangulation

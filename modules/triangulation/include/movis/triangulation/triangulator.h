@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "movis/triangulation/joint.h"
+#include "movis/triangulation/obstacles.h"
 #include "movis/triangulation/pairs.h"
 
 namespace movis::triangulation {
@@ -11,9 +12,10 @@ namespace movis::triangulation {
 struct Options {
   PairsOptions pairs;
   JointOptions joint;
+  ObstacleOptions obstacles;
 };
 
-// Strict: the maps `pairs` and `joint`, each optional.
+// Strict: the maps `pairs`, `joint` and `obstacles`, each optional.
 Options read_options(const YamlMap& map);
 
 // How bearings become points: pairs or joint. Both have one shape, so that comparing them is a table.
