@@ -53,11 +53,14 @@ double largest_variance(const Eigen::Matrix3d& covariance) {
 // What becomes of the best pose. `by_lines`: the lines alone tell it, but for the half turn.
 Fix fix_of(const Candidate& best, const Problem& problem, bool by_lines) {
   const NlsOptions& options = problem.options;
-  if (!by_lines) {
+  if (by_lines) {
+    if (edges_contradict(best, problem)) return failed(FixStatus::bad_fit);
+  } else {
     const bool enough_clean = best.clean > 2 * kFewestEdges;
     if (best.agreeing < kFewestEdges) return failed(enough_clean ? FixStatus::bad_fit : too_little(problem));
     if (best.edge_scale > options.worst_scale || 2 * best.clean_agreeing < best.clean)
       return failed(FixStatus::bad_fit);
+    if (lines_contradict(best, problem)) return failed(FixStatus::bad_fit);
   }
   Fix fix;
   fix.status = FixStatus::ok;

@@ -33,6 +33,10 @@ struct Candidate {
 // From a place and heading that may be off by as much as `start_width` radians in an edge's azimuth.
 Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem);
 
+// Whether what is seen beside speaks against a pose: lines against one by the edges, edges against one by the lines.
+bool lines_contradict(const Candidate& candidate, const Problem& problem);
+bool edges_contradict(const Candidate& candidate, const Problem& problem);
+
 // How badly a candidate fits, in the same scales as another one that it is compared with.
 double cost_of(const Candidate& candidate, double edge_scale, double line_scale, const Problem& problem);
 
