@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "movis/localization/localizer.h"
 #include "movis/triangulation/triangulator.h"
 
 namespace movis::app {
@@ -14,7 +15,7 @@ struct TrackArguments {
   std::optional<std::filesystem::path> page;
   std::optional<std::filesystem::path> rig, field, colours, correction, options;
   std::string triangulation{triangulation::kDefaultTriangulator};
-  std::string localizer = "composed";
+  std::string localizer{localization::kDefaultLocalizer};
 };
 
 // `movis track`: every set of a data set through the pipeline; the estimates to a CSV file, a short table to standard

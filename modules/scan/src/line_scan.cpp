@@ -3,73 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "membership.h"
-#include "movis/scan/floor_scan.h"
+#include "crossing.h"
 
 namespace movis::scan {
 namespace {
-
-constexpr int kLongest = 80;  // pixels of white along a row or column: the nearest line, crossed obliquely
-constexpr int kBeside = 3;    // pixels looked at on either side: one that may be mixed, two of carpet
-
-// Reads along a row or a column through (0): the channels of the pixel at a place.
-struct Track {
-  const std::uint8_t* origin;
-  std::ptrdiff_t step;  // bytes
-  int red;
-
-  const std::uint8_t* at(int i) const { return origin + i * step; }
-  Light light(int i) const {
-    const auto& linear = linear_light();
-    const std::uint8_t* pixel = at(i);
-    return {linear[pixel[red]], linear[pixel[1]], linear[pixel[2 - red]]};
-  }
-  bool is(const IntegerClass& colour, int i) const {
-    const std::uint8_t* pixel = at(i);
-    return belongs(colour, pixel[red], pixel[1], pixel[2 - red]);
-  }
-};
-
-float whiteness(const Light& light) {
-  return light.r + light.b;
-}
-
-// What a byte's noise of one grey level is in linear light.
-const std::array<float, 256>& light_per_level() {
-  static const std::array<float, 256> table = [] {
-    const auto& linear = linear_light();
-    std::array<float, 256> slopes{};
-    for (int i = 0; i < 256; ++i) {
-      const int low = std::max(i - 1, 0);
-      const int high = std::min(i + 1, 255);
-      slopes[i] = (linear[high] - linear[low]) / static_cast<float>(high - low);
-    }
-    return slopes;
-  }();
-  return table;
-}
-
-// The carpet on one side: the mean of its two pixels, and how they differ.
-struct Side {
-  Light light;
-  float flatness;  // |difference| of whiteness
-  float noise;     // of the red and blue bytes: a sample of their variance
-};
-
-Side side_of(const Track& track, int near, int far) {
-  const Light a = track.light(near);
-  const Light b = track.light(far);
-  const auto square = [](int value) { return static_cast<float>(value * value); };
-  const float noise = 0.25F * (square(track.at(near)[track.red] - track.at(far)[track.red]) +
-                               square(track.at(near)[2 - track.red] - track.at(far)[2 - track.red]));
-  return {{0.5F * (a.r + b.r), 0.5F * (a.g + b.g), 0.5F * (a.b + b.b)}, std::abs(whiteness(a) - whiteness(b)), noise};
-}
-
-// White on carpet brightens all channels; yellow, blue, grey or a robot's band leave one behind.
-bool balanced(const Light& white, const Light& carpet, double balance) {
-  const auto [least, most] = std::minmax({white.r - carpet.r, white.g - carpet.g, white.b - carpet.b});
-  return static_cast<double>(least) >= balance * static_cast<double>(most);
-}
 
 // The direction across the line in the image, from the structure tensor of 3 × 3 gradients around a pixel.
 Eigen::Vector2f across(const ImageView& image, int u, int v) {
@@ -116,76 +53,6 @@ bool goes_on(const ImageView& image, const PolarMap& map, int u, int v, const Ei
   return true;
 }
 
-// Where white lies along the track, in pixels from its origin.
-struct Crossing {
-  float middle = 0.0F;
-  float width = 0.0F;
-  bool resolved = false;    // its edges are apart
-  float level = 0.0F;       // whiteness that is more than carpet
-  float noise_gain = 0.0F;  // of the middle's variance
-  float carpet_noise = 0.0F;
-};
-
-bool measure(const Track& track, int length, const Carpet& carpet, const FloorOptions& options, Crossing& crossing) {
-  constexpr float kFlat = 0.1F;     // of the peak: the carpet's two pixels on one side
-  constexpr float kLevel = 0.3F;    // both sides
-  constexpr float kGoesOn = 0.35F;  // of the peak, along the line
-  constexpr float kWhite = 0.85F;   // of the peak: pixels that are white all over
-  constexpr float kResolved = 2.5F;
-  const Side first = side_of(track, -2, -3);
-  const Side last = side_of(track, length + 1, length + 2);
-  const float from = whiteness(first.light);
-  const float slope = (whiteness(last.light) - from) / static_cast<float>(length + 4);  // between −2.5 and length + 1.5
-  std::array<float, kLongest + 2> excess{};
-  float peak = 0.0F;
-  int peak_at = 0;
-  for (int i = -1; i <= length; ++i) {
-    const float e = whiteness(track.light(i)) - from - slope * (static_cast<float>(i) + 2.5F);
-    excess[i + 1] = e;
-    if (e > peak) {
-      peak = e;
-      peak_at = i;
-    }
-  }
-  const auto& linear = linear_light();
-  const auto decoded = [&](float byte) { return linear[static_cast<int>(byte + 0.5F)]; };
-  const float carpet_light = decoded(carpet.r) + decoded(carpet.g) + decoded(carpet.b);
-  if (!(peak >= static_cast<float>(options.white_contrast) * carpet_light)) return false;
-  if (first.flatness > kFlat * peak || last.flatness > kFlat * peak) return false;
-  if (std::abs(whiteness(last.light) - from) > kLevel * peak) return false;
-  const Light& beside = 2 * peak_at < length ? first.light : last.light;
-  if (!balanced(track.light(peak_at), beside, options.white_balance)) return false;
-
-  float sum = 0.0F;
-  float moment = 0.0F;
-  float white = 0.0F;
-  int whites = 0;
-  for (int i = -1; i <= length; ++i) {
-    const float e = excess[i + 1];
-    sum += e;
-    moment += e * static_cast<float>(i);
-    if (e < kWhite * peak) continue;
-    white += e;
-    ++whites;
-  }
-  crossing.middle = moment / sum;
-  crossing.width = sum * static_cast<float>(whites) / white;
-  crossing.resolved = crossing.width >= kResolved;
-  crossing.level = from + kGoesOn * peak;
-  const auto& per_level = light_per_level();
-  float gain = 0.0F;
-  for (int i = -1; i <= length; ++i) {
-    const std::uint8_t* pixel = track.at(i);
-    const float r = per_level[pixel[track.red]];
-    const float b = per_level[pixel[2 - track.red]];
-    const float lever = static_cast<float>(i) - crossing.middle;
-    gain += lever * lever * (r * r + b * b);
-  }
-  crossing.noise_gain = gain / (sum * sum);
-  crossing.carpet_noise = 0.5F * (first.noise + last.noise);
-  return true;
-}
-
 // The floor under a place between two pixels' middles, from under the camera; metres.
 struct FloorMap {
   const PolarMap& map;
@@ -227,10 +94,10 @@ void FloorScan::cross(const ImageView& image, const PolarMap& map, const Carpet&
   for (const int i : {-3, -2, length + 1, length + 2}) {
     if (!track.is(field_, i)) return;
   }
-  Crossing crossing;
-  if (!measure(track, length, carpet, options_, crossing)) return;
+  const std::optional<Crossing> crossing = measure(track, length, carpet, options_);
+  if (!crossing) return;
 
-  const int edge = static_cast<int>(std::lround(crossing.middle - 0.5F * crossing.width));
+  const int edge = static_cast<int>(std::lround(crossing->middle - 0.5F * crossing->width));
   const int edge_u = column ? u : u + edge;
   const int edge_v = column ? v + edge : v;
   if (!map.contains(edge_u - 2, edge_v - 2) || !map.contains(edge_u + 2, edge_v + 2)) return;
@@ -238,23 +105,23 @@ void FloorScan::cross(const ImageView& image, const PolarMap& map, const Carpet&
   const float steepness = std::abs(column ? normal.y() : normal.x());
   if (steepness < kSteep) return;
 
-  const int centre = static_cast<int>(std::lround(crossing.middle));
+  const int centre = static_cast<int>(std::lround(crossing->middle));
   const int cu = column ? u : u + centre;
   const int cv = column ? v + centre : v;
-  if (!goes_on(image, map, cu, cv, normal, column, crossing.level)) return;
+  if (!goes_on(image, map, cu, cv, normal, column, crossing->level)) return;
 
   const FloorMap floor{map, static_cast<float>(height_)};
   const auto chord = [&](float width) {
-    const Eigen::Vector2f a = floor.along(u, v, column, crossing.middle - 0.5F * width);
-    const Eigen::Vector2f b = floor.along(u, v, column, crossing.middle + 0.5F * width);
+    const Eigen::Vector2f a = floor.along(u, v, column, crossing->middle - 0.5F * width);
+    const Eigen::Vector2f b = floor.along(u, v, column, crossing->middle + 0.5F * width);
     return std::make_pair(a, b);
   };
   const auto line = static_cast<float>(line_width_);
-  const auto [a, b] = chord(crossing.width);
-  const auto inner = chord(std::max(crossing.width - kSlack, 0.0F));
+  const auto [a, b] = chord(crossing->width);
+  const auto inner = chord(std::max(crossing->width - kSlack, 0.0F));
   if ((b - a).norm() < kNarrow * line || (inner.second - inner.first).norm() > kWide * line) return;
   const Eigen::Vector2f from_camera =
-      crossing.resolved ? Eigen::Vector2f(0.5F * (a + b)) : floor.along(u, v, column, crossing.middle);
+      crossing->resolved ? Eigen::Vector2f(0.5F * (a + b)) : floor.along(u, v, column, crossing->middle);
 
   if (from_camera.norm() > static_cast<float>(options_.max_range)) return;
 
@@ -265,8 +132,8 @@ void FloorScan::cross(const ImageView& image, const PolarMap& map, const Carpet&
   const Eigen::Vector2f across_floor(-tangent.y(), tangent.x());
 
   Candidate candidate;
-  candidate.noise_gain = crossing.noise_gain;
-  candidate.carpet_noise = crossing.carpet_noise;
+  candidate.noise_gain = crossing->noise_gain;
+  candidate.carpet_noise = crossing->carpet_noise;
   candidate.steepness = steepness;
   candidate.across_per_pixel = std::abs(across_floor.dot(column ? by_v : by_u));
   if (static_cast<float>(options_.least_pixels) * candidate.across_per_pixel > line) return;

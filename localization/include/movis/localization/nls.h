@@ -36,7 +36,7 @@ namespace movis::localization {
 // With white goals (field.yaml) only lines are used: ok with `symmetric` set, right up to the half turn.
 // Allocates nothing, after the first call in a thread.
 struct NlsOptions {
-  double edge_floor_deg = 0.011;  // sigma added to each edge's own: the silhouette's model, the lens's
+  double edge_floor_deg = 0.014;  // sigma added to each edge's own: the silhouette's model, the lens's
   double edge_bias_deg = 0.015;
   double line_floor = 0.003;  // sigma added to each line point's own, metres
   double line_points = 25.0;  // that all line points count for at most
