@@ -13,10 +13,6 @@ namespace {
 constexpr double kSamePlace = 0.15;   // metres
 constexpr double kSameTurn = 0.0524;  // radians, 3°
 
-Pose2 half_turned(const Pose2& pose) {
-  return {-pose.x, -pose.y, wrap_angle(pose.beta + kPi)};
-}
-
 bool near(const Pose2& a, const Pose2& b) {
   return std::hypot(a.x - b.x, a.y - b.y) < kSamePlace && std::abs(turn(a.beta, b.beta)) < kSameTurn;
 }

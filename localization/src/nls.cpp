@@ -19,11 +19,6 @@ const double kPolishWidth = radians(0.2);  // and where the edges alone have tol
 constexpr double kClear = 6.0;             // by so much cheaper is a pose to be than any other: 400 times as likely
 constexpr int kFewestEdges = 5;            // that agree: three numbers, and two to contradict them
 
-// The pose that a field with white goals shows no difference to.
-Pose2 half_turn(const Pose2& pose) {
-  return {-pose.x, -pose.y, wrap_angle(pose.beta + kPi)};
-}
-
 bool same(const Pose2& a, const Pose2& b) {
   constexpr double kApart = 0.1;  // metres
   return (a.translation() - b.translation()).norm() < kApart && std::abs(turn(a.beta, b.beta)) < radians(10.0);
@@ -142,7 +137,7 @@ Fix by_lines(const Problem& problem) {
     return fix;
   }
   const Pose2& pose = found.fix.world_from_robot;
-  const Pose2 turned = half_turn(pose);
+  const Pose2 turned = half_turned(pose);
   Fix fix =
       better_of(solve_from(pose, kPolishWidth, problem), solve_from(turned, kPolishWidth, problem), problem, true);
   fix.symmetric = fix.status == FixStatus::ambiguous;
@@ -174,7 +169,7 @@ Fix nls_from(const Pose2& guess, const Instant& instant, const FieldMap& map, co
   if (found.fix.status != FixStatus::ok) found = find_by_lines(instant.lines, map, options.lines, scratch);
   if (found.fix.status != FixStatus::ok) return found.fix;
   const Pose2& pose = found.fix.world_from_robot;
-  const Pose2 turned = half_turn(pose);
+  const Pose2 turned = half_turned(pose);
   const bool same_half = (pose.translation() - guess.translation()).norm() + std::abs(turn(pose.beta, guess.beta)) <
                          (turned.translation() - guess.translation()).norm() + std::abs(turn(turned.beta, guess.beta));
   return fix_of(solve_from(same_half ? pose : turned, kPolishWidth, problem), problem, true);

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
-#include <string>
 
 #include "calibration/rendered_balls.h"
 #include "movis/calibration/correction_calibration.h"
@@ -33,31 +32,38 @@ struct Errors {
   }
 };
 
-// Sums over the frames in which ball and pose were measured.
-Errors track(const RenderedSet& set, const omni::Rig& believed, const Field& field,
-             const triangulation::Correction& correction, const std::string& localizer) {
+constexpr std::array<const char*, 2> kLocalizers{"composed", "nls"};
+using ByLocalizer = std::array<Errors, kLocalizers.size()>;
+
+void add(ByLocalizer& sums, const ByLocalizer& others) {
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i].add(others[i]);
+}
+
+// Sums over the frames in which ball and pose were measured. The images are scanned once for all localizers.
+ByLocalizer track(const RenderedSet& set, const omni::Rig& believed, const Field& field,
+                  const triangulation::Correction& correction) {
   pipeline::Pipeline pipeline(believed, field, scan::read_colours(data_file("colours/default.yaml")), {},
-                              localization::find_localizer(localizer));
+                              localization::find_localizer(kLocalizers[0]));
   pipeline.correction = correction;
-  Errors errors;
+  ByLocalizer errors;
   for (std::size_t i = 0; i < set.images().size(); ++i) {
     const pipeline::Estimate& estimate = step(pipeline, set.images()[i]);
-    ++errors.frames;
-    const localization::ObjectPosition ball = localization::object_position(estimate.fix, estimate.ball_in_robot);
-    if (ball.status != localization::ObjectStatus::ok) continue;
     const sim::State& truth = set.states()[i];
-    const double in_field = (ball.in_field - truth.ball_in_field.head<2>()).norm();
-    errors.add({(estimate.ball_in_robot.point.head<2>() - ball_in_robot(truth).head<2>()).norm(),
-                (estimate.fix.world_from_robot.translation() - truth.world_from_robot.translation()).norm(),
-                std::abs(turn(truth.world_from_robot.beta, estimate.fix.world_from_robot.beta)), in_field, in_field, 1,
-                0});
+    for (std::size_t l = 0; l < kLocalizers.size(); ++l) {
+      ++errors[l].frames;
+      const Fix fix = localization::find_localizer(kLocalizers[l])
+                          .fix({believed, estimate.bearings, estimate.goals, estimate.lines}, *pipeline.map,
+                               pipeline.options.localization);
+      const localization::ObjectPosition ball = localization::object_position(fix, estimate.ball_in_robot);
+      if (ball.status != localization::ObjectStatus::ok) continue;
+      const double in_field = (ball.in_field - truth.ball_in_field.head<2>()).norm();
+      errors[l].add({(estimate.ball_in_robot.point.head<2>() - ball_in_robot(truth).head<2>()).norm(),
+                     (fix.world_from_robot.translation() - truth.world_from_robot.translation()).norm(),
+                     std::abs(turn(truth.world_from_robot.beta, fix.world_from_robot.beta)), in_field, in_field, 1, 0});
+    }
   }
   return errors;
 }
-
-struct Systems {
-  Errors nominal, corrected, known;
-};
 
 void print(const char* what, const Errors& sum) {
   const double n = std::max(1, sum.measured);
@@ -73,28 +79,27 @@ TEST(MeasurementSteps, CorrectionBringsTheAbsolutePosition) {
   const int places = asked != nullptr ? 40 : 24, tests = asked != nullptr ? 30 : 8;
   const omni::Rig nominal = nominal_rig();
   const Field field = read_field(data_file("fields/paper.yaml"));
-  std::map<std::string, Systems> systems{{"composed", {}}, {"nls", {}}};
+  ByLocalizer nominals, correcteds, knowns;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(draws); ++seed) {
     RandomStream random = make_stream(seed, 0);
     const omni::Rig built = omni::draw_rig(nominal, omni::individual_differences(), random);
     const RenderedSet balls(built, {}, balls_around(places, random), 2 * seed);
     const RenderedSet set(built, field, states_on_field(field, tests, random), 2 * seed + 1);
     const triangulation::Correction correction = calibration::fit_correction(balls.sightings(nominal, true)).correction;
-    for (auto& [localizer, sums] : systems) {
-      sums.nominal.add(track(set, nominal, field, {}, localizer));
-      sums.corrected.add(track(set, nominal, field, correction, localizer));
-      sums.known.add(track(set, built, field, {}, localizer));
-    }
+    add(nominals, track(set, nominal, field, {}));
+    add(correcteds, track(set, nominal, field, correction));
+    add(knowns, track(set, built, field, {}));
   }
-  for (const auto& [localizer, sums] : systems) {
-    std::printf("%s, %d draws\n", localizer.c_str(), draws);
-    print("nominal", sums.nominal);
-    print("corrected", sums.corrected);
-    print("the true rig", sums.known);
-    EXPECT_GT(sums.nominal.in_field, 0.1 * sums.nominal.measured) << localizer;  // there is something to correct
-    EXPECT_LT(sums.corrected.in_field, 0.04 * sums.corrected.measured) << localizer;
-    EXPECT_LT(sums.corrected.pose, sums.nominal.pose * sums.corrected.measured / sums.nominal.measured) << localizer;
-    EXPECT_GE(sums.corrected.measured, sums.nominal.measured) << localizer;
+  for (std::size_t l = 0; l < kLocalizers.size(); ++l) {
+    const Errors &without = nominals[l], &with = correcteds[l];
+    std::printf("%s, %d draws\n", kLocalizers[l], draws);
+    print("nominal", without);
+    print("corrected", with);
+    print("the true rig", knowns[l]);
+    EXPECT_GT(without.in_field, 0.1 * without.measured) << kLocalizers[l];  // there is something to correct
+    EXPECT_LT(with.in_field, 0.04 * with.measured) << kLocalizers[l];
+    EXPECT_LT(with.pose, without.pose * with.measured / without.measured) << kLocalizers[l];
+    EXPECT_GE(with.measured, without.measured) << kLocalizers[l];
   }
 }
 

@@ -251,7 +251,9 @@ TEST(Nls, RobotInsideAGoal) {
       bearing.right = -2.8;
     }
     const Fix fix = scene.fix();
-    if (fix.status == FixStatus::ok) EXPECT_LT(distance(fix, truth), 0.2) << y;
+    if (fix.status == FixStatus::ok) {
+      EXPECT_LT(distance(fix, truth), 0.2) << y;
+    }
   }
 }
 

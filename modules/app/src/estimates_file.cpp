@@ -25,7 +25,7 @@ void EstimatesFile::add(const pipeline::Estimate& estimate) {
   const PointEstimate& ball = estimate.ball_in_robot;
   const Fix& fix = estimate.fix;
   const bool ball_ok = ball.status == PointStatus::ok;
-  const bool fix_ok = fix.status == FixStatus::ok;
+  const bool fix_known = fix.status == FixStatus::ok || (fix.status == FixStatus::ambiguous && fix.symmetric);
   fmt::memory_buffer row;
   auto out = std::back_inserter(row);
   fmt::format_to(out, "{},{:.6f},{}", estimate.index, estimate.time_s, word(ball.status));
@@ -36,7 +36,7 @@ void EstimatesFile::add(const pipeline::Estimate& estimate) {
     fmt::format_to(out, ",,,,,,");
   }
   fmt::format_to(out, ",{}", word(fix.status));
-  if (fix_ok) {
+  if (fix_known) {
     const auto& c = fix.covariance;
     fmt::format_to(out, ",{:.6f},{:.6f},{:.6f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", fix.world_from_robot.x,
                    fix.world_from_robot.y, fix.world_from_robot.beta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2),

@@ -61,7 +61,10 @@ BallError ball_error(const Eigen::Vector2d& ball_in_robot, const grab::Truth& tr
           (ball_in_robot - expected).norm()};
 }
 
-PoseError pose_error(const Fix& fix, const grab::Truth& truth) {
+PoseError pose_error(const Fix& measured, const grab::Truth& truth) {
+  // Of the two poses of a symmetric fix one is at most a quarter of a turn off.
+  const double off = turn(truth.world_from_robot.beta, measured.world_from_robot.beta);
+  const Fix fix = measured.symmetric && std::abs(off) > 0.5 * kPi ? half_turned(measured) : measured;
   const Eigen::Vector3d error(fix.world_from_robot.x - truth.world_from_robot.x,
                               fix.world_from_robot.y - truth.world_from_robot.y,
                               turn(truth.world_from_robot.beta, fix.world_from_robot.beta));

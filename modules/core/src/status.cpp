@@ -93,4 +93,12 @@ const char* name(PixelFormat format) {
   return "?";
 }
 
+Fix half_turned(const Fix& fix) {
+  Fix turned = fix;
+  turned.world_from_robot = half_turned(fix.world_from_robot);
+  turned.covariance.topRightCorner<2, 1>() *= -1.0;
+  turned.covariance.bottomLeftCorner<1, 2>() *= -1.0;
+  return turned;
+}
+
 }  // namespace movis

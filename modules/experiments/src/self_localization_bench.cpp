@@ -17,10 +17,6 @@ Field painted(Field field, Field::Goals goals) {
   return field;
 }
 
-Pose2 half_turned(const Pose2& pose) {
-  return {-pose.x, -pose.y, wrap_angle(pose.beta + kPi)};
-}
-
 Fix no_fix(const localization::Instant& /*instant*/, const localization::FieldMap& /*map*/,
            const localization::Options& /*options*/) {
   return {};
@@ -32,18 +28,13 @@ void judge(const Fix& fix, const Pose2& truth, SelfLocalizationRow& row) {
   row.status = movis::word(fix.status);
   if (fix.status != FixStatus::ok) return;
   row.symmetric = fix.symmetric;
-  Pose2 pose = fix.world_from_robot;
   // Of the two poses that are half a turn apart one is at most a quarter off.
-  if (fix.symmetric && std::abs(turn(truth.beta, pose.beta)) > 0.5 * kPi) pose = half_turned(pose);
+  const bool other = fix.symmetric && std::abs(turn(truth.beta, fix.world_from_robot.beta)) > 0.5 * kPi;
+  const Fix nearer = other ? half_turned(fix) : fix;
+  const Pose2& pose = nearer.world_from_robot;
   row.error << pose.translation() - truth.translation(), turn(truth.beta, pose.beta);
-  row.sigma = fix.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  // Of a pose that is turned by half a turn x and y change their signs together, so the covariance's entries with β do.
-  Eigen::Matrix3d covariance = fix.covariance;
-  if (pose.beta != fix.world_from_robot.beta) {
-    covariance.topRightCorner<2, 1>() *= -1.0;
-    covariance.bottomLeftCorner<1, 2>() *= -1.0;
-  }
-  const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
+  row.sigma = nearer.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::LLT<Eigen::Matrix3d> factor(nearer.covariance);
   row.nees = factor.info() == Eigen::Success ? row.error.dot(factor.solve(row.error)) : kUnknown;
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "crossing.h"
+#include "line_crossing.h"
 
 namespace movis::scan {
 namespace {
@@ -94,7 +94,7 @@ void FloorScan::cross(const ImageView& image, const PolarMap& map, const Carpet&
   for (const int i : {-3, -2, length + 1, length + 2}) {
     if (!track.is(field_, i)) return;
   }
-  const std::optional<Crossing> crossing = measure(track, length, carpet, options_);
+  const std::optional<LineCrossing> crossing = measure_crossing(track, length, carpet, options_);
   if (!crossing) return;
 
   const int edge = static_cast<int>(std::lround(crossing->middle - 0.5F * crossing->width));

@@ -31,6 +31,11 @@ inline Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {
   return {origin_in_a.x(), origin_in_a.y(), wrap_angle(a_from_b.beta + b_from_c.beta)};
 }
 
+// Turned by half a turn about the frame's origin: what a field with white goals shows no difference to.
+inline Pose2 half_turned(const Pose2& pose) {
+  return {-pose.x, -pose.y, wrap_angle(pose.beta + kPi)};
+}
+
 inline Pose2 inverse(const Pose2& a_from_b) {
   const double c = std::cos(a_from_b.beta);
   const double s = std::sin(a_from_b.beta);

@@ -57,4 +57,7 @@ struct Fix {
   bool symmetric = false;
 };
 
+// The other pose of a symmetric fix. The signs of x and y change together, so the covariance's entries with β do.
+Fix half_turned(const Fix& fix);
+
 }  // namespace movis

@@ -32,7 +32,7 @@ struct Track {
 };
 
 // Where white lies along the track, in pixels from its origin.
-struct Crossing {
+struct LineCrossing {
   float middle = 0.0F;
   float width = 0.0F;
   bool resolved = false;    // its edges are apart
@@ -41,9 +41,10 @@ struct Crossing {
   float carpet_noise = 0.0F;
 };
 
-// Of `length` pixels, at most kLongest, that may be white, from the track's origin on, with kBeside pixels of the image on
-// either side. None where they are no line: too little contrast to the carpet, carpet that is uneven or differs between
-// the sides, a colour.
-std::optional<Crossing> measure(const Track& track, int length, const Carpet& carpet, const FloorOptions& options);
+// Of `length` pixels, at most kLongest, that may be white, from the track's origin on, with kBeside pixels of the image
+// on either side. None where they are no line: too little contrast to the carpet, carpet that is uneven or differs
+// between the sides, a colour.
+std::optional<LineCrossing> measure_crossing(const Track& track, int length, const Carpet& carpet,
+                                             const FloorOptions& options);
 
 }  // namespace movis::scan

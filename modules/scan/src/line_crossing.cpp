@@ -1,4 +1,4 @@
-#include "crossing.h"
+#include "line_crossing.h"
 
 #include <algorithm>
 #include <array>
@@ -64,12 +64,14 @@ float moment_noise(const Track& track, int length, float middle) {
 
 }  // namespace
 
-std::optional<Crossing> measure(const Track& track, int length, const Carpet& carpet, const FloorOptions& options) {
+std::optional<LineCrossing> measure_crossing(const Track& track, int length, const Carpet& carpet,
+                                             const FloorOptions& options) {
   constexpr float kFlat = 0.1F;     // of the peak: the carpet's two pixels on one side
   constexpr float kLevel = 0.3F;    // both sides
   constexpr float kGoesOn = 0.35F;  // of the peak, along the line
   constexpr float kWhite = 0.85F;   // of the peak: pixels that are white all over
   constexpr float kResolved = 2.5F;
+  const auto& linear = linear_light();
   const Side first = side_of(track, -2, -3);
   const Side last = side_of(track, length + 1, length + 2);
   const float from = whiteness(first.light);
@@ -78,14 +80,15 @@ std::optional<Crossing> measure(const Track& track, int length, const Carpet& ca
   float peak = 0.0F;
   int peak_at = 0;
   for (int i = -1; i <= length; ++i) {
-    const float e = whiteness(track.light(i)) - from - slope * (static_cast<float>(i) + 2.5F);
+    const std::uint8_t* pixel = track.at(i);
+    const float white_here = linear[pixel[track.red]] + linear[pixel[2 - track.red]];
+    const float e = white_here - from - slope * (static_cast<float>(i) + 2.5F);
     excess[i + 1] = e;
     if (e > peak) {
       peak = e;
       peak_at = i;
     }
   }
-  const auto& linear = linear_light();
   const auto decoded = [&](float byte) { return linear[static_cast<int>(byte + 0.5F)]; };
   const float carpet_light = decoded(carpet.r) + decoded(carpet.g) + decoded(carpet.b);
   if (!(peak >= static_cast<float>(options.white_contrast) * carpet_light)) return std::nullopt;
@@ -106,7 +109,7 @@ std::optional<Crossing> measure(const Track& track, int length, const Carpet& ca
     white += e;
     ++whites;
   }
-  Crossing crossing;
+  LineCrossing crossing;
   crossing.middle = moment / sum;
   crossing.width = sum * static_cast<float>(whites) / white;
   crossing.resolved = crossing.width >= kResolved;
