@@ -6,8 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "movis/core/angle.h"
-#include "movis/localization/goal_silhouette.h"
+#include "nls_residuals.h"
 
 namespace movis::localization {
 namespace {
@@ -32,11 +31,6 @@ struct Normal {
   double cost = 0.0;
 };
 
-struct State {
-  Pose2 pose;
-  Vector2d bias = Vector2d::Zero();
-};
-
 // Geman–McClure of squared u and width: its weight is that of iteratively reweighted least squares, ρ'(u)/u.
 struct Loss {
   double squared_width;
@@ -46,53 +40,6 @@ struct Loss {
     return share * share;
   }
 };
-
-// Calls visit(edge, residual, its derivative by the unknowns).
-template <typename Visit>
-void for_each_edge(const Problem& problem, const State& state, Visit visit) {
-  const double c = std::cos(state.pose.beta);
-  const double s = std::sin(state.pose.beta);
-  Silhouette silhouette;
-  Vector2d viewpoint, arm;
-  int sight = -1;
-  for (const GoalEdge& edge : problem.edges) {
-    if (edge.sight != sight) {
-      sight = edge.sight;
-      const Vector2d& in_robot = edge.viewpoint_in_robot;
-      arm = {c * in_robot.x() - s * in_robot.y(), s * in_robot.x() + c * in_robot.y()};
-      viewpoint = state.pose.translation() + arm;
-      silhouette = goal_silhouette(problem.map.field, edge.goal, viewpoint);
-    }
-    const double azimuth = edge.is_left ? silhouette.left : silhouette.right;
-    const Vector2d to_corner = (edge.is_left ? silhouette.left_corner : silhouette.right_corner) - viewpoint;
-    const double squared = std::max(1e-4, to_corner.squaredNorm());
-    // The azimuth's derivative by the viewpoint is (y, −x)/ρ², and the viewpoint's by β is (−arm_y, arm_x).
-    const Vector2d by_viewpoint(to_corner.y() / squared, -to_corner.x() / squared);
-    Vector5 by_unknowns = Vector5::Zero();
-    by_unknowns.head<2>() = -by_viewpoint;
-    by_unknowns[2] = 1.0 - (by_viewpoint.y() * arm.x() - by_viewpoint.x() * arm.y());
-    by_unknowns[3 + edge.bias()] = -edge.outwards();
-    const double residual = turn(azimuth - state.pose.beta, edge.azimuth) - edge.outwards() * state.bias[edge.bias()];
-    visit(edge, residual, by_unknowns);
-  }
-}
-
-// Calls visit(sigma, distance, its derivative by x, y, β).
-template <typename Visit>
-void for_each_line_point(const Problem& problem, const State& state, Visit visit) {
-  const double c = std::cos(state.pose.beta);
-  const double s = std::sin(state.pose.beta);
-  const double floor = problem.options.line_floor;
-  const std::size_t count = std::min<std::size_t>(problem.lines.size(), kMostLinePoints);
-  for (std::size_t i = 0; i < count; ++i) {
-    const LinePoint& point = problem.lines[i];
-    const Vector2d arm(c * point.point.x() - s * point.point.y(), s * point.point.x() + c * point.point.y());
-    const LineMap::Offset offset = problem.map.lines.offset(state.pose.translation() + arm);
-    const Vector2d& n = offset.normal;
-    const double sigma = std::sqrt(point.sigma_on_floor * point.sigma_on_floor + floor * floor);
-    visit(sigma, offset.distance, Eigen::Vector3d(n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y()));
-  }
-}
 
 double line_share(const Problem& problem) {
   const auto count = static_cast<double>(std::min<std::size_t>(problem.lines.size(), kMostLinePoints));
@@ -252,45 +199,6 @@ Candidate solve_from(const Pose2& guess, double start_width, const Problem& prob
     candidate.clean_agreeing += agrees && edge.clean ? 1 : 0;
   });
   return candidate;
-}
-
-// Do the lines contradict a pose that the edges tell? By the share of points that lie on a line because they are seen
-// there, as in line_match.h; a rig whose edges spread puts its points as far off.
-bool lines_contradict(const Candidate& candidate, const Problem& problem) {
-  constexpr double kLeast = 0.4;    // the share
-  constexpr double kFewest = 15.0;  // points, less those that would lie on a line by chance
-  const double off = 2.0 * candidate.edge_scale * radians(problem.options.edge_floor_deg);  // radians
-  const State state{candidate.world_from_robot, candidate.bias};
-  double within = 0.0;
-  double by_chance = 0.0;
-  int count = 0;
-  const std::size_t points = std::min<std::size_t>(problem.lines.size(), kMostLinePoints);
-  for (std::size_t i = 0; i < points; ++i) {
-    const LinePoint& point = problem.lines[i];
-    if (!(point.sigma > 0.0)) continue;
-    const double way = point.sigma_on_floor / point.sigma;  // metres a radian
-    const double limit = 0.5 * problem.map.field.line + 2.0 * point.sigma_on_floor + off * way;
-    const LineMap::Offset offset = problem.map.lines.offset(state.pose * point.point);
-    within += std::abs(offset.distance) < limit ? 1.0 : 0.0;
-    by_chance += problem.map.lines.share_within(limit);
-    ++count;
-  }
-  const double told = count - by_chance;
-  return told > kFewest && within - by_chance < kLeast * told;
-}
-
-// Do the clean edges lie about where a pose that the lines tell has them?
-bool edges_contradict(const Candidate& candidate, const Problem& problem) {
-  constexpr double kAbout = 0.05;  // radians
-  const State state{candidate.world_from_robot, candidate.bias};
-  int clean = 0;
-  int about = 0;
-  for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
-    if (!edge.clean) return;
-    ++clean;
-    about += std::abs(residual) < kAbout ? 1 : 0;
-  });
-  return 2 * about < clean;
 }
 
 double cost_of(const Candidate& candidate, double edge_scale, double line_scale, const Problem& problem) {

@@ -1,6 +1,8 @@
 // `movis track` as a user runs it: its file, its exit codes, and what it says about bad input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -252,6 +254,24 @@ TEST_F(Track, WhiteGoals) {
     const Eigen::Vector2d true_place =
         truth.at(std::stoll(table.text(row, table.column("frame")))).world_from_robot.translation();
     EXPECT_LT(std::min((place - true_place).norm(), (place + true_place).norm()), 0.02);
+  }
+}
+
+// Two black robots stand on the field in the first shipped set of images/field-obstacles.
+TEST_F(Track, Obstacles) {
+  const fs::path file = folder_.path() / "obstacles.csv";
+  const test::ProgramRun run =
+      test::run_program(std::string(MOVIS_PROGRAM) + " track --data " + data_file("images/field-obstacles").string() +
+                        " --out " + out_.string() + " --obstacles " + file.string());
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const CsvTable table = CsvTable::read(file);
+  ASSERT_GE(table.rows(), 2U);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double distance = table.number(row, table.column("distance"));
+    const double x = table.number(row, table.column("x_r"));
+    const double y = table.number(row, table.column("y_r"));
+    EXPECT_NEAR(std::hypot(x, y), distance, 1e-3);
+    EXPECT_GT(table.number(row, table.column("width")), 0.1);
   }
 }
 

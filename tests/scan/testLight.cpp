@@ -61,7 +61,7 @@ class Floor {
   std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(3 * static_cast<std::size_t>(kWidth) * kHeight);
 };
 
-Light light_of(const ImageView& image, const Colours& colours = typical_colours()) {
+Illumination light_of(const ImageView& image, const Colours& colours = typical_colours()) {
   const PolarMap map = floor_map();
   LightAdapter adapter(map, colours, {});
   const ImageView adapted = adapter.adapt(image);
@@ -70,7 +70,7 @@ Light light_of(const ImageView& image, const Colours& colours = typical_colours(
   return adapter.light();
 }
 
-void expect_gains(const Light& light, double r, double g, double b, double tolerance = 1e-12) {
+void expect_gains(const Illumination& light, double r, double g, double b, double tolerance = 1e-12) {
   EXPECT_NEAR(light.gains.r, r, tolerance);
   EXPECT_NEAR(light.gains.g, g, tolerance);
   EXPECT_NEAR(light.gains.b, b, tolerance);
@@ -78,7 +78,7 @@ void expect_gains(const Light& light, double r, double g, double b, double toler
 
 // The median of equal bytes is that byte: 40/50, 130/130, 111/74.
 TEST(Light, ColouredLightIsKnownByTheCarpet) {
-  const Light light = light_of(Floor({40, 130, 111}).view());
+  const Illumination light = light_of(Floor({40, 130, 111}).view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   expect_gains(light, 0.8, 1.0, 1.5);
 }
@@ -87,14 +87,14 @@ TEST(Light, ColouredLightIsKnownByTheCarpet) {
 TEST(Light, MedianIsFinerThanAByte) {
   Floor floor({60, 130, 48});
   floor.fill(0, kWidth / 2, {61, 130, 48});
-  const Light light = light_of(floor.view());
+  const Illumination light = light_of(floor.view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   EXPECT_NEAR(light.gains.r, 1.21, 1e-9);
 }
 
 // Bytes times ½: (25, 65, 37).
 TEST(Light, DimmedBytesAreWhiteLight) {
-  const Light light = light_of(Floor({25, 65, 37}).view());
+  const Illumination light = light_of(Floor({25, 65, 37}).view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   expect_gains(light, 0.5, 0.5, 0.5);
 }
@@ -102,14 +102,14 @@ TEST(Light, DimmedBytesAreWhiteLight) {
 // Light times a factor: bytes plus 14 times ½ is (32, 72, 44), the bytes are (18, 58, 30). Carpet tells gains of 0.36,
 // 0.446 and 0.405, yet the light is white, and bright colours have lost about as much as its green.
 TEST(Light, DimmedLightIsWhiteLight) {
-  const Light light = light_of(Floor({18, 58, 30}).view());
+  const Illumination light = light_of(Floor({18, 58, 30}).view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   expect_gains(light, 58.0 / 130.0, 58.0 / 130.0, 58.0 / 130.0);
 }
 
 TEST(Light, WithinTheBandsNothingIsAdapted) {
   for (const Eigen::Vector3d& gains : {Eigen::Vector3d(1, 1, 1), {1.05, 1, 0.95}, {0.9, 0.9, 0.9}, {1.1, 1.1, 1.1}}) {
-    const Light light = light_of(Floor(kCarpet.cwiseProduct(gains)).view());
+    const Illumination light = light_of(Floor(kCarpet.cwiseProduct(gains)).view());
     EXPECT_EQ(light.status, LightStatus::reference) << gains.transpose();
     expect_gains(light, 1.0, 1.0, 1.0);
   }
@@ -119,7 +119,7 @@ TEST(Light, WithinTheBandsNothingIsAdapted) {
 TEST(Light, LinesTellIt) {
   Floor floor(kCarpet.cwiseProduct(Eigen::Vector3d(0.8, 0.9, 0.7)));
   floor.draw_lines({184, 207, 161});
-  const Light light = light_of(floor.view());
+  const Illumination light = light_of(floor.view());
   EXPECT_EQ(light.status, LightStatus::by_lines);
   expect_gains(light, 0.8, 0.9, 0.7);
 }
@@ -135,7 +135,7 @@ TEST(Light, AnotherCarpetWithWhiteLinesIsNoOtherLight) {
 TEST(Light, MixedLinesYieldToTheCarpet) {
   Floor floor(kCarpet.cwiseProduct(Eigen::Vector3d(0.8, 1.0, 0.8)));
   floor.draw_lines(0.8 * kLine.cwiseProduct(Eigen::Vector3d(0.75, 1.0, 0.78)));
-  const Light light = light_of(floor.view());
+  const Illumination light = light_of(floor.view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   expect_gains(light, 0.8, 1.0, 59.0 / 74.0);
 }
@@ -143,7 +143,7 @@ TEST(Light, MixedLinesYieldToTheCarpet) {
 TEST(Light, ClippedLinesTellNothing) {
   Floor floor(kCarpet.cwiseProduct(Eigen::Vector3d(1.3, 1.0, 1.0)));
   floor.draw_lines({255, 230, 230});
-  const Light light = light_of(floor.view());
+  const Illumination light = light_of(floor.view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   EXPECT_NEAR(light.gains.r, 1.3, 1e-12);
 }
@@ -160,7 +160,7 @@ TEST(Light, OtherThingsOnTheCarpet) {
   floor.fill(60, 80, {22, 22, 22});
   floor.fill(80, 90, {106, 44, 101});
   floor.fill(90, 100, {44, 106, 116});
-  const Light light = light_of(floor.view());
+  const Illumination light = light_of(floor.view());
   EXPECT_EQ(light.status, LightStatus::by_carpet);
   expect_gains(light, 0.5, 0.5, 0.5, 0.01);
 }

@@ -38,7 +38,8 @@ Field find_field(const CalibrateRigArguments& arguments, const grab::Dataset& da
   if (arguments.field) return read_field(*arguments.field);
   if (dataset.field_file) return read_field(*dataset.field_file);
   throw Error(
-      "{}: a self-calibration needs the goals of a known field; name its file by --field, or {} to calibrate from balls "
+      "{}: a self-calibration needs the goals of a known field; name its file by --field, or {} to calibrate from "
+      "balls "
       "at known places",
       dataset.folder.string(), arguments.self ? "leave --self out" : "add a truth.csv");
 }

@@ -42,16 +42,17 @@ void add_track(CLI::App& program, movis::app::TrackArguments& arguments) {
       ->required();
   track->add_option("--out", arguments.out, "The estimates, a CSV file")->required();
   track->add_option("--page", arguments.page, "An HTML page of what was seen and measured");
+  track->add_option("--obstacles", arguments.obstacles, "What hides the floor in every set, a CSV file");
   track->add_option("--rig", arguments.rig, "Another rig than the data set's rig.yaml");
   track->add_option("--field", arguments.field, "Another field than the data set's field.yaml");
   track->add_option("--colours", arguments.colours, "Colour classes; default: data/colours/default.yaml");
   track->add_option("--correction", arguments.correction, "Error correction: of movis calibrate correction");
   track->add_option("--options", arguments.options,
-                    "Options of the stages: YAML with the maps scan, triangulation, world");
+                    "Options of the stages: YAML with the maps scan, triangulation, localization, world");
   track->add_option("--triangulation", arguments.triangulation, "How bearings become points")
       ->check(CLI::IsMember(triangulator_names()))
       ->capture_default_str();
-  track->add_option("--localizer", arguments.localizer, "How goals become a pose")
+  track->add_option("--localizer", arguments.localizer, "How goals and lines become a pose")
       ->check(CLI::IsMember(localizer_names()))
       ->capture_default_str();
   track->callback([&arguments] { movis::app::track(arguments); });
@@ -73,7 +74,7 @@ void add_demo(CLI::App& program, movis::app::DemoArguments& arguments) {
                    "fuzzy[:controller.yaml] and pbvs[:pbvs.yaml], separated by commas")
       ->delimiter(',')
       ->capture_default_str();
-  demo->add_option("--localizer", arguments.localizer, "How goals become a pose")
+  demo->add_option("--localizer", arguments.localizer, "How goals and lines become a pose")
       ->check(CLI::IsMember(localizer_names()))
       ->capture_default_str();
   demo->add_option("--rows", arguments.rows, "A CSV file, one row an episode");

@@ -16,6 +16,7 @@
 #include "movis/grab/truth.h"
 #include "movis/localization/localizer.h"
 #include "movis/pipeline/pipeline.h"
+#include "obstacles_file.h"
 #include "outputs.h"
 #include "progress.h"
 #include "track_frames.h"
@@ -64,9 +65,12 @@ void track(const TrackArguments& arguments) {
     if (!fits) throw Error("{}: has none of the frames of frames.csv; is it of another recording?", file.string());
   }
 
-  refuse_to_overwrite({{"--out", arguments.out}, {"--page", arguments.page}}, files_of(source.dataset()),
+  refuse_to_overwrite({{"--out", arguments.out}, {"--page", arguments.page}, {"--obstacles", arguments.obstacles}},
+                      files_of(source.dataset()),
                       {arguments.field, arguments.colours, arguments.correction, arguments.options});
   EstimatesFile estimates(arguments.out);
+  std::optional<ObstaclesFile> obstacles;
+  if (arguments.obstacles) obstacles.emplace(*arguments.obstacles);
   Evaluation evaluation;
   std::map<std::string, int> ball_statuses, pose_statuses;
   std::vector<double> ticks_us;
@@ -78,6 +82,7 @@ void track(const TrackArguments& arguments) {
     check_interrupts();
     const pipeline::Estimate& estimate = step(pipeline, images);
     estimates.add(estimate);
+    if (obstacles) obstacles->add(estimate);
     ++ball_statuses[word(estimate.ball_in_robot.status)];
     ++pose_statuses[word(estimate.fix.status)];
     ticks_us.push_back(estimate.tick_us);
@@ -87,6 +92,7 @@ void track(const TrackArguments& arguments) {
     if (frames) frames->add(pipeline, images, true_state);
   }
   estimates.flush();
+  if (obstacles) obstacles->flush();
   if (frames) {
     const std::string command = fmt::format("movis track --data {} --triangulation {} --localizer {}",
                                             arguments.data.string(), arguments.triangulation, arguments.localizer);
@@ -95,12 +101,14 @@ void track(const TrackArguments& arguments) {
                              *arguments.page);
   }
   estimates.commit();
+  if (obstacles) obstacles->commit();
   progress.finish();
 
   fmt::print("{} sets of {} images: median tick {:.0f} µs\n  ball  {}\n  pose  {}\n", sets, pipeline.rig.cameras.size(),
              median(ticks_us), count_statuses(ball_statuses), count_statuses(pose_statuses));
   if (!truth.empty()) fmt::print("{}", evaluation.table());
   fmt::print("estimates: {}\n", arguments.out.string());
+  if (arguments.obstacles) fmt::print("obstacles: {}\n", arguments.obstacles->string());
   if (arguments.page) fmt::print("open in a browser: {}\n", fs::absolute(*arguments.page).string());
 }
 

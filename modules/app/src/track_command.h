@@ -13,6 +13,7 @@ struct TrackArguments {
   std::filesystem::path data;
   std::filesystem::path out;
   std::optional<std::filesystem::path> page;
+  std::optional<std::filesystem::path> obstacles;  // CSV
   std::optional<std::filesystem::path> rig, field, colours, correction, options;
   std::string triangulation{triangulation::kDefaultTriangulator};
   std::string localizer{localization::kDefaultLocalizer};

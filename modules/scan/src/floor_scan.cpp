@@ -23,7 +23,9 @@ FloorOptions read_floor_options(const YamlMap& map) {
   map.read_integer("most_line_points", {1.0, 10000.0}, options.most_line_points);
   map.read_number("white_contrast", {0.01, 10.0}, options.white_contrast);
   map.read_number("white_balance", {0.0, 1.0}, options.white_balance);
+  map.read_number("least_pixels", {0.1, 10.0}, options.least_pixels);
   map.read_number("position_floor", {0.0, 2.0}, options.position_floor);
+  map.read_number("floor_sigma", {0.0, 0.1}, options.floor_sigma);
   map.read_number("obstacle_dark", {0.01, 0.95}, options.obstacle_dark);
   map.read_integer("obstacle_pixels", {2.0, 100.0}, options.obstacle_pixels);
   map.read_number("obstacle_width_deg", {1.0, 90.0}, options.obstacle_width_deg);

@@ -172,7 +172,8 @@ bool neutral(const Gains& gains, const Eigen::Vector3d& typical, double band) {
   return explained(gains.r, typical[0]) && explained(gains.b, typical[2]);
 }
 
-Light light_of(const Gains& gains, const Eigen::Vector3d& typical, LightStatus source, const LightOptions& options) {
+Illumination light_of(const Gains& gains, const Eigen::Vector3d& typical, LightStatus source,
+                      const LightOptions& options) {
   const auto [least, most] = std::minmax({gains.r, gains.g, gains.b});
   if (least < options.least_gain || most > options.most_gain) return {LightStatus::unknown, {}};
   if (!neutral(gains, typical, options.balance_band)) return {source, gains};
@@ -221,20 +222,20 @@ std::vector<Run> light_rows(const PolarMap& map) {
   return rows;
 }
 
-Light estimate_light(const ImageView& image, const std::vector<Run>& rows, const TypicalColours& typical,
-                     const LightOptions& options, std::vector<Rgb>& whites) {
+Illumination estimate_light(const ImageView& image, const std::vector<Run>& rows, const TypicalColours& typical,
+                            const LightOptions& options, std::vector<Rgb>& whites) {
   if (!typical.field) return {};
   const auto carpet = find_carpet(image, rows, *typical.field, options);
   if (!carpet) return {};
   const Gains by_carpet = gains_of(*carpet, *typical.field);
-  const Light light = light_of(by_carpet, *typical.field, LightStatus::by_carpet, options);
+  const Illumination light = light_of(by_carpet, *typical.field, LightStatus::by_carpet, options);
   if (light.status == LightStatus::reference || !typical.line) return light;
   collect_whites(image, rows, *carpet, Recognizable(*typical.line, options), whites);
   const auto lines = find_lines(whites);
   if (!lines) return light;
   const Gains by_lines = gains_of(*lines, *typical.line);
   if (!lines_count(by_lines, by_carpet)) return light;
-  const Light of_lines = light_of(by_lines, *typical.line, LightStatus::by_lines, options);
+  const Illumination of_lines = light_of(by_lines, *typical.line, LightStatus::by_lines, options);
   return of_lines.status == LightStatus::unknown ? light : of_lines;
 }
 

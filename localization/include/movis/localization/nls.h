@@ -38,12 +38,12 @@ namespace movis::localization {
 struct NlsOptions {
   double edge_floor_deg = 0.014;  // sigma added to each edge's own: the silhouette's model, the lens's
   double edge_bias_deg = 0.015;
-  double line_floor = 0.003;  // sigma added to each line point's own, metres
-  double line_points = 25.0;  // that all line points count for at most
-  double loss_width = 4.0;    // c
-  double worst_scale = 60.0;  // of the residuals over their sigma
-  double worst_sigma = 0.10;  // of the position, metres: above it, the pose counts as not determined
-  LineMatchOptions lines;     // for the start by lines
+  double line_floor = 0.003;   // sigma added to each line point's own, metres
+  double line_points = 100.0;  // that all line points count for at most
+  double loss_width = 4.0;     // c
+  double worst_scale = 60.0;   // of the residuals over their sigma
+  double worst_sigma = 0.10;   // of the position, metres: above it, the pose counts as not determined
+  LineMatchOptions lines;      // for the start by lines
 };
 
 NlsOptions read_nls_options(const YamlMap& map);

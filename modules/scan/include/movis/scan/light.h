@@ -37,7 +37,7 @@ struct Gains {
   double r = 1.0, g = 1.0, b = 1.0;
 };
 
-struct Light {
+struct Illumination {
   LightStatus status = LightStatus::unknown;
   Gains gains;  // 1 where nothing is adapted
 
@@ -59,8 +59,8 @@ std::vector<Run> light_rows(const PolarMap& map);
 using Rgb = std::array<std::uint8_t, 3>;
 
 // The light of an image in BGR8, RGB8 or RGBA8. `whites` is memory that is reused; it never grows beyond its capacity.
-Light estimate_light(const ImageView& image, const std::vector<Run>& rows, const TypicalColours& typical,
-                     const LightOptions& options, std::vector<Rgb>& whites);
+Illumination estimate_light(const ImageView& image, const std::vector<Run>& rows, const TypicalColours& typical,
+                            const LightOptions& options, std::vector<Rgb>& whites);
 
 // Writes the runs' pixels divided by the gains, rounded and cut off at 255, to an image of the same size and format
 // whose rows follow each other without gaps. Alpha stays. Vectorized for whatever the processor has.
@@ -78,7 +78,7 @@ class LightAdapter {
   // The same for the last image once more.
   ImageView adapted(const ImageView& image) const;
 
-  const Light& light() const { return light_; }  // of the last image
+  const Illumination& light() const { return light_; }  // of the last image
 
  private:
   LightOptions options_;
@@ -88,7 +88,7 @@ class LightAdapter {
   std::vector<Rgb> whites_;
   std::vector<std::uint8_t> copy_;
   int copy_channels_ = 0;
-  Light light_;
+  Illumination light_;
 };
 
 }  // namespace movis::scan

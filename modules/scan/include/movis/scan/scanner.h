@@ -57,7 +57,7 @@ class Scanner {
   void scan_floor(const ImageView& image, std::vector<LinePoint>& lines, std::vector<ObstacleSight>& obstacles);
 
   // Of the last scan.
-  const Light& light() const { return light_.light(); }
+  const Illumination& light() const { return light_.light(); }
   const Histogram& histogram(ObjectClass object) const { return histograms_[object]; }
   const PolarMap& polar_map() const { return map_; }
 
