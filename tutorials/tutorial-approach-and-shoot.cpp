@@ -60,7 +60,7 @@ class Orbit : public control::Controller {
 
 struct Arguments {
   std::vector<std::string> against{"fuzzy", "pbvs"};
-  std::string scenario, localizer = "composed", page;
+  std::string scenario, localizer = "nls", page;
   int starts = 2;
   std::uint64_t seed = 1;  // of the first start
 };
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   program.add_option("--starts", arguments.starts, "How many")->check(CLI::Range(1, 1000))->capture_default_str();
   program.add_option("--seed", arguments.seed, "Of the first start; the others count on")->capture_default_str();
   program.add_option("--scenario", arguments.scenario, "Default: data/scenarios/resting-ball.yaml");
-  program.add_option("--localizer", arguments.localizer, "composed, method1 or method2")->capture_default_str();
+  program.add_option("--localizer", arguments.localizer, "nls, composed, method1 or method2")->capture_default_str();
   program.add_option("--page", arguments.page, "An HTML page that replays the episodes");
   return tutorial::run(program, argc, argv, [&] { return compete(arguments); });
 }

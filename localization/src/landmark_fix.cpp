@@ -36,14 +36,13 @@ Fix fix_from(const Solution& solution, const triangulation::GoalLandmarks& landm
   const bool finite = fix.world_from_robot.translation().allFinite() && std::isfinite(fix.world_from_robot.beta) &&
                       fix.covariance.allFinite();
   if (!finite) return failed(FixStatus::no_distance);
-  if (far_outside(fix.world_from_robot, field)) return failed(FixStatus::outside_field);
+  if (far_outside(fix.world_from_robot, field, kOutsideMargin)) return failed(FixStatus::outside_field);
   return fix;
 }
 
-bool far_outside(const Pose2& world_from_robot, const Field& field) {
+bool far_outside(const Pose2& world_from_robot, const Field& field, double margin) {
   const double back = std::max(field.half_length, field.Fd + field.goal_depth + field.goal_thickness);
-  return std::abs(world_from_robot.x) > field.half_width + kOutsideMargin ||
-         std::abs(world_from_robot.y) > back + kOutsideMargin;
+  return std::abs(world_from_robot.x) > field.half_width + margin || std::abs(world_from_robot.y) > back + margin;
 }
 
 Fix failed(FixStatus status) {

@@ -38,8 +38,8 @@ FixStatus landmark_status(const triangulation::GoalLandmarks& landmarks, Needs n
 // finite, outside_field where the robot cannot be. Whatever is not finite on the way shows here.
 Fix fix_from(const Solution& solution, const triangulation::GoalLandmarks& landmarks, const Field& field);
 
-// Farther than kOutsideMargin beyond the lines or the goals' backs.
-bool far_outside(const Pose2& world_from_robot, const Field& field);
+// Farther than the margin, metres, beyond the lines or the goals' backs.
+bool far_outside(const Pose2& world_from_robot, const Field& field, double margin);
 
 // A fix without a pose.
 Fix failed(FixStatus status);

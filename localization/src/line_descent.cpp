@@ -8,10 +8,9 @@
 namespace movis::localization {
 namespace {
 
-constexpr double kWide = 0.25;            // s of the first descent, metres (Lauer et al.)
-constexpr double kNoiseScale = 3.0;       // c in units of f σ
-constexpr double kLargestSpread = 3.0;    // f in the error; a larger one would let any line attract any point
-constexpr double kNormalMedian = 1.4826;  // σ over the median of |normal|
+constexpr double kWide = 0.25;          // s of the first descent, metres (Lauer et al.)
+constexpr double kNoiseScale = 3.0;     // c in units of f σ
+constexpr double kLargestSpread = 3.0;  // f in the error; a larger one would let any line attract any point
 
 // E[ψ²]/E[ψ']² of a normal variable for ψ(u) = u (9/(9 + u²))², by numerical integration: 0.42278/0.61969².
 constexpr double kInefficiency = 1.1009;
@@ -95,15 +94,19 @@ Pose2 descend(const std::vector<LineSample>& points, const LineMap& map, const P
   return pose;
 }
 
+double upper_median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double excess_spread(const std::vector<LineSample>& points, const LineMap& map, const Pose2& pose,
                      std::vector<double>& sizes) {
   const Turned turned(pose.beta);
   sizes.clear();
   for (const LineSample& point : points)
     sizes.push_back(std::abs(map.offset(pose.translation() + turned(point)).distance) / point.sigma);
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return std::max(1.0, kNormalMedian * *middle);
+  return std::max(1.0, kNormalMedian * upper_median(sizes));
 }
 
 Pose2 settle(const std::vector<LineSample>& points, const LineMap& map, const Pose2& start,

@@ -66,21 +66,23 @@ double support(const std::vector<LineSample>& points, const FieldMap& map, const
 }
 
 void measure_quality(const FieldMap& map, const Pose2& pose, LineMatchScratch& scratch, LineFit& fit) {
+  const double width = map.field.line * map.field.line / 12.0;
   scratch.sizes.clear();
+  scratch.spreads.clear();
   double within_15cm = 0.0, within_5cm = 0.0, within_limit = 0.0, by_chance = 0.0;
   for (const LineSample& point : scratch.points) {
     const double distance = std::abs(map.lines.offset(pose * Eigen::Vector2d(point.x, point.y)).distance);
     const double limit = tolerance(point, map.field);
     scratch.sizes.push_back(distance);
+    scratch.spreads.push_back(distance / std::sqrt(point.sigma * point.sigma + width));
     if (distance < 0.15) ++within_15cm;
     if (distance < 0.05) ++within_5cm;
     if (distance < limit) ++within_limit;
     by_chance += map.lines.share_within(limit);
   }
   const auto count = static_cast<double>(scratch.points.size());
-  const auto middle = scratch.sizes.begin() + static_cast<std::ptrdiff_t>(scratch.sizes.size() / 2);
-  std::nth_element(scratch.sizes.begin(), middle, scratch.sizes.end());
-  fit.median = *middle;
+  fit.median = upper_median(scratch.sizes);
+  fit.spread = kNormalMedian * upper_median(scratch.spreads);
   fit.points = static_cast<int>(scratch.points.size());
   fit.within_15cm = within_15cm / count;
   fit.within_5cm = within_5cm / count;
@@ -90,18 +92,22 @@ void measure_quality(const FieldMap& map, const Pose2& pose, LineMatchScratch& s
 }
 
 // The pose of least error from `start`, and everything that is told of it.
-void finish(const FieldMap& map, const Pose2& start, const LineMatchOptions& options, LineMatchScratch& scratch,
-            LineFit& fit) {
+void finish(std::size_t offered, const FieldMap& map, const Pose2& start, const LineMatchOptions& options,
+            LineMatchScratch& scratch, LineFit& fit) {
   const Pose2 pose = settle(scratch.points, map.lines, start, scratch.sizes);
   measure_quality(map, pose, scratch, fit);
   fit.fix.world_from_robot = pose;
   fit.fix.symmetric = true;
   const double f = excess_spread(scratch.points, map.lines, pose, scratch.sizes);
-  if (fit.on_lines < 1.0 - options.outliers) {
+  const auto used = static_cast<double>(scratch.points.size());
+  const bool explained = fit.on_lines >= 1.0 - options.outliers && fit.spread <= options.worst_spread &&
+                         used >= (1.0 - options.most_left_out) * static_cast<double>(offered);
+  if (!explained) {
     fit.fix.status = FixStatus::bad_fit;
   } else if (!line_covariance(scratch.points, map.lines, pose, f, fit.fix.covariance)) {
     fit.fix.status = FixStatus::no_landmark;
   } else {
+    fit.fix.covariance *= std::max(1.0, used / options.independent);
     fit.fix.status = FixStatus::ok;
   }
 }
@@ -121,7 +127,7 @@ bool prepare(const std::vector<LinePoint>& points, const FieldMap& map, const Li
 LineFit match_lines(const std::vector<LinePoint>& points, const FieldMap& map, const Pose2& guess,
                     const LineMatchOptions& options, LineMatchScratch& scratch) {
   LineFit fit;
-  if (prepare(points, map, options, scratch, fit)) finish(map, guess, options, scratch, fit);
+  if (prepare(points, map, options, scratch, fit)) finish(points.size(), map, guess, options, scratch, fit);
   return fit;
 }
 
@@ -142,7 +148,7 @@ LineFit find_by_lines(const std::vector<LinePoint>& points, const FieldMap& map,
     }
   }
   if (start.y > 0.0) start = half_turned(start);
-  finish(map, start, options, scratch, fit);
+  finish(points.size(), map, start, options, scratch, fit);
   const Pose2& pose = fit.fix.world_from_robot;
   for (int i = 0; i < places.count; ++i) {
     const Place& place = places.place[i];

@@ -18,6 +18,7 @@ const double kStartWidth = radians(20.0);  // how far off the edges may be where
 const double kPolishWidth = radians(0.2);  // and where the edges alone have told the pose
 constexpr double kClear = 6.0;             // by so much cheaper is a pose to be than any other: 400 times as likely
 constexpr int kFewestEdges = 5;            // that agree: three numbers, and two to contradict them
+const std::vector<LinePoint> kNoLines;
 
 bool same(const Pose2& a, const Pose2& b) {
   constexpr double kApart = 0.1;  // metres
@@ -45,17 +46,38 @@ double largest_variance(const Eigen::Matrix3d& covariance) {
   return half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - of_place.determinant()));
 }
 
+// Do most of a goal's clean edges lie elsewhere?
+bool a_goal_disagrees(const Candidate& candidate) {
+  for (const int goal : {0, 1}) {
+    if (candidate.clean[goal] > 1 && 2 * candidate.clean_agreeing[goal] < candidate.clean[goal]) return true;
+  }
+  return false;
+}
+
+// Without the lines that the field has, as in a light in which neither they nor the goals' colours are what they should
+// be, only goals that are seen both, and where nearly all edges agree as well as they should, are believed.
+bool edges_suffice(const Candidate& candidate) {
+  constexpr double kWorstScale = 3.0;
+  constexpr int kFewestOfGoal = 3;
+  const auto& [yellow, blue] = candidate.clean_agreeing;
+  const int clean = candidate.clean[0] + candidate.clean[1];
+  return yellow >= kFewestOfGoal && blue >= kFewestOfGoal && 4 * (yellow + blue) >= 3 * clean &&
+         candidate.edge_scale < kWorstScale;
+}
+
 // What becomes of the best pose. `by_lines`: the lines alone tell it, but for the half turn.
 Fix fix_of(const Candidate& best, const Problem& problem, bool by_lines) {
   const NlsOptions& options = problem.options;
   if (by_lines) {
     if (edges_contradict(best, problem)) return failed(FixStatus::bad_fit);
   } else {
-    const bool enough_clean = best.clean > 2 * kFewestEdges;
+    const bool enough_clean = best.clean[0] + best.clean[1] > 2 * kFewestEdges;
     if (best.agreeing < kFewestEdges) return failed(enough_clean ? FixStatus::bad_fit : too_little(problem));
-    if (best.edge_scale > options.worst_scale || 2 * best.clean_agreeing < best.clean)
-      return failed(FixStatus::bad_fit);
-    if (lines_contradict(best, problem)) return failed(FixStatus::bad_fit);
+    if (best.edge_scale > options.worst_scale || a_goal_disagrees(best)) return failed(FixStatus::bad_fit);
+    const LineVerdict lines = verdict_of_lines(best, problem);
+    if (lines == LineVerdict::against) return failed(FixStatus::bad_fit);
+    const bool lines_missed = lines == LineVerdict::silent && !problem.map.lines.empty();
+    if (lines_missed && !edges_suffice(best)) return failed(enough_clean ? FixStatus::bad_fit : too_little(problem));
   }
   Fix fix;
   fix.status = FixStatus::ok;
@@ -65,7 +87,7 @@ Fix fix_of(const Candidate& best, const Problem& problem, bool by_lines) {
                       fix.covariance.allFinite();
   if (!finite) return failed(FixStatus::bad_fit);
   if (largest_variance(fix.covariance) > options.worst_sigma * options.worst_sigma) return failed(too_little(problem));
-  if (far_outside(fix.world_from_robot, problem.map.field)) return failed(FixStatus::outside_field);
+  if (far_outside(fix.world_from_robot, problem.map.field, kBeyond)) return failed(FixStatus::outside_field);
   return fix;
 }
 
@@ -98,8 +120,7 @@ Fix better_of(Candidate best, Candidate second, const Problem& problem, bool by_
 
 // The edges alone tell where the robot may be; the lines make it finer.
 Fix by_edges(const Problem& problem) {
-  static const std::vector<LinePoint> no_lines;
-  const Problem edges_only{problem.edges, no_lines, problem.map, problem.options};
+  const Problem edges_only{problem.edges, kNoLines, problem.map, problem.options};
   Starts starts;
   offer_by_edges(problem.edges, problem.map.field, starts);
   std::array<Candidate, kMostStarts> candidates;
@@ -157,11 +178,10 @@ Fix nls(const Instant& instant, const FieldMap& map, const NlsOptions& options) 
 }
 
 Fix nls_from(const Pose2& guess, const Instant& instant, const FieldMap& map, const NlsOptions& options) {
-  static const std::vector<LinePoint> no_lines;
   const GoalEdges edges = goal_edges(instant, map.field, options);
   const Problem problem{edges, instant.lines, map, options};
   if (edges.count >= kFewestEdges) {
-    const Candidate candidate = solve_from(guess, kStartWidth, {edges, no_lines, map, options});
+    const Candidate candidate = solve_from(guess, kStartWidth, {edges, kNoLines, map, options});
     return fix_of(polished(candidate, problem), problem, false);
   }
   thread_local LineMatchScratch scratch;

@@ -4,12 +4,13 @@
 
 namespace movis::localization {
 
-// Do the lines contradict a pose that the edges tell? By the share of points that lie on a line because they are seen
+// What the lines say of a pose that the edges tell: by the share of points that lie on a line because they are seen
 // there, as in line_match.h; a rig whose edges spread puts its points as far off.
-bool lines_contradict(const Candidate& candidate, const Problem& problem) {
-  constexpr double kLeast = 0.4;    // the share
-  constexpr double kFewest = 15.0;  // points, less those that would lie on a line by chance
-  const double off = 2.0 * candidate.edge_scale * radians(problem.options.edge_floor_deg);  // radians
+LineVerdict verdict_of_lines(const Candidate& candidate, const Problem& problem) {
+  constexpr double kLeast = 0.4;         // the share
+  constexpr double kFewest = 15.0;       // points, less those that would lie on a line by chance
+  const double most_off = radians(0.5);  // of a rig that is not as its file says; more would let anything pass
+  const double off = std::min(most_off, 2.0 * candidate.edge_scale * radians(problem.options.edge_floor_deg));
   const State state{candidate.world_from_robot, candidate.bias};
   double within = 0.0;
   double by_chance = 0.0;
@@ -26,7 +27,8 @@ bool lines_contradict(const Candidate& candidate, const Problem& problem) {
     ++count;
   }
   const double told = count - by_chance;
-  return told > kFewest && within - by_chance < kLeast * told;
+  if (told <= kFewest) return LineVerdict::silent;
+  return within - by_chance < kLeast * told ? LineVerdict::against : LineVerdict::in_favour;
 }
 
 // Do the clean edges lie about where a pose that the lines tell has them?

@@ -4,10 +4,13 @@ namespace movis::localization {
 namespace {
 
 LineMatchOptions read_line_match_options(const YamlMap& map) {
-  map.allow({"outliers", "largest_sigma", "distinct", "fewest_points"});
+  map.allow({"outliers", "largest_sigma", "worst_spread", "most_left_out", "independent", "distinct", "fewest_points"});
   LineMatchOptions options;
   map.read_number("outliers", {0.0, 0.9}, options.outliers);
   map.read_number("largest_sigma", {0.001, 10.0}, options.largest_sigma);
+  map.read_number("worst_spread", {0.1, 100.0}, options.worst_spread);
+  map.read_number("most_left_out", {0.0, 1.0}, options.most_left_out);
+  map.read_number("independent", {1.0, 1e6}, options.independent);
   map.read_number("distinct", {0.0, 1.0}, options.distinct);
   map.read_integer("fewest_points", {4.0, 10000.0}, options.fewest_points);
   return options;

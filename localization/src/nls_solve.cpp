@@ -120,17 +120,21 @@ bool all_count(const GoalEdges& edges) {
   return clean <= kUnknowns + 2;
 }
 
-// The share of the edges that lie within `sigmas` of where they are to be; of the clean ones where those are enough.
-double consensus(const Problem& problem, const State& state, double sigmas) {
+// Do six in ten of the edges lie within `sigmas` of where they are to be, and half of each goal's? Of the clean ones where
+// those are enough. The edges of one goal alone fit many poses, so each goal has a say of its own.
+bool most_agree(const Problem& problem, const State& state, double sigmas) {
   const bool all = all_count(problem.edges);
-  int count = 0;
-  int within = 0;
+  std::array<int, 2> count{};
+  std::array<int, 2> within{};
   for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
     if (!edge.clean && !all) return;
-    ++count;
-    within += std::abs(residual) < sigmas * edge.sigma ? 1 : 0;
+    ++count[edge.bias()];
+    within[edge.bias()] += std::abs(residual) < sigmas * edge.sigma ? 1 : 0;
   });
-  return count > 0 ? within / static_cast<double>(count) : 1.0;
+  for (const int goal : {0, 1}) {
+    if (count[goal] > 1 && 2 * within[goal] < count[goal]) return false;
+  }
+  return 10 * (within[0] + within[1]) >= 6 * (count[0] + count[1]);
 }
 
 // Of the edges within `sigmas`, and of all line points.
@@ -158,8 +162,7 @@ constexpr double kFinalLine = 0.06;
 }  // namespace
 
 Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem) {
-  constexpr double kSigma = 2.3e-4;  // of an edge, about; radians
-  constexpr double kConsensus = 0.6;
+  constexpr double kSigma = 2.3e-4;   // of an edge, about; radians
   constexpr double kWideStep = 0.05;  // radians: above it one step a width will do
   constexpr int kMostSteps = 12;
   constexpr double kSettled = 1e-7;
@@ -174,7 +177,7 @@ Candidate solve_from(const Pose2& guess, double start_width, const Problem& prob
       if (step(state, linearize(problem, state, {width, line}, {})) < kSettled) break;
     }
     // The narrowest width at which most edges still agree.
-    if (agreed_width == HUGE_VAL || consensus(problem, state, width) > kConsensus) {
+    if (agreed_width == HUGE_VAL || most_agree(problem, state, width)) {
       agreed = state;
       agreed_width = width;
     }
@@ -195,8 +198,8 @@ Candidate solve_from(const Pose2& guess, double start_width, const Problem& prob
   for_each_edge(problem, state, [&](const GoalEdge& edge, double residual, const Vector5&) {
     const bool agrees = std::abs(residual) < final_width * scales.edges * edge.sigma;
     candidate.agreeing += agrees ? 1 : 0;
-    candidate.clean += edge.clean ? 1 : 0;
-    candidate.clean_agreeing += agrees && edge.clean ? 1 : 0;
+    candidate.clean[edge.bias()] += edge.clean ? 1 : 0;
+    candidate.clean_agreeing[edge.bias()] += agrees && edge.clean ? 1 : 0;
   });
   return candidate;
 }

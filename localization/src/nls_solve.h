@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "goal_edges.h"
 
@@ -25,8 +26,8 @@ struct Candidate {
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
   double edge_scale = 1.0;  // by how much the residuals spread more than their sigmas tell
   double line_scale = 1.0;
-  int agreeing = 0;  // edges within the loss's width
-  int clean = 0, clean_agreeing = 0;
+  int agreeing = 0;                              // edges within the loss's width
+  std::array<int, 2> clean{}, clean_agreeing{};  // of the yellow and the blue goal
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
@@ -34,7 +35,8 @@ struct Candidate {
 Candidate solve_from(const Pose2& guess, double start_width, const Problem& problem);
 
 // Whether what is seen beside speaks against a pose: lines against one by the edges, edges against one by the lines.
-bool lines_contradict(const Candidate& candidate, const Problem& problem);
+enum class LineVerdict { silent, in_favour, against };
+LineVerdict verdict_of_lines(const Candidate& candidate, const Problem& problem);
 bool edges_contradict(const Candidate& candidate, const Problem& problem);
 
 // How badly a candidate fits, in the same scales as another one that it is compared with.

@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kLattice = 0.25;        // metres
-constexpr double kBeyond = 0.5;          // the lines, metres
 const double kEdgeSigma = radians(3.0);  // of an edge, on a lattice that coarse
 
 struct Guess {

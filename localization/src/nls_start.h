@@ -9,6 +9,9 @@ namespace movis::localization {
 
 inline constexpr int kMostStarts = 8;
 
+// How far beyond the lines the robot is sought, metres. Farther out a goal seen from behind mirrors one seen from the front.
+inline constexpr double kBeyond = 0.5;
+
 struct Starts {
   std::array<Pose2, kMostStarts> pose;
   std::array<double, kMostStarts> cost{};

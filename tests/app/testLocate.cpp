@@ -97,6 +97,34 @@ TEST_F(Locate, GuessPicksTheHalf) {
   EXPECT_NEAR(std::stod(turned["beta_deg"]), -140.0, 0.5);
 }
 
+TEST_F(Locate, GuessFarOutsideOfTheField) {
+  const test::ProgramRun run = locate(picture_from({-1.5, -3.0, radians(40.0)}), "--guess 5000,5000,0");
+  auto found = values(run);
+  EXPECT_EQ(found["status"], "bad_fit") << run.output;
+  EXPECT_EQ(found.count("median_m"), 0U) << run.output;
+}
+
+TEST_F(Locate, ByteOrderMark) {
+  const auto pixels = app::read_line_pixels(folder_.write("points.txt",
+                                                          "\xEF\xBB\xBF"
+                                                          "100 200\n"),
+                                            camera());
+  ASSERT_EQ(pixels.size(), 1U);
+  EXPECT_EQ(pixels[0], Eigen::Vector2d(100.0, 200.0));
+}
+
+// A camera's centre 5 px off bends the lines it sees: a pose from them would be some 30 cm off.
+TEST_F(Locate, RealRobotWithItsCentreOff) {
+  MOVIS_NEEDS_SHARED_DATA(test::nubot_folder(1));
+  for (const double off : {-5.0, 5.0}) {
+    omni::Rig rig = omni::read_rig(folder_.write("rig.yaml", test::nubot_rig(1)));
+    std::get<omni::Radial>(rig.cameras[0].model).u0 += off;
+    omni::write_rig(rig, rig_);
+    const test::ProgramRun run = locate(test::nubot_folder(1) / "whites.txt");
+    EXPECT_EQ(values(run)["status"], "bad_fit") << run.output;
+  }
+}
+
 TEST_F(Locate, AnotherFieldIsABadFit) {
   const test::ProgramRun run = locate(picture_from({-1.5, -3.0, 0.7}), "", data_file("fields/msl-12x8.yaml").string());
   EXPECT_EQ(run.exit_code, 0) << run.output;

@@ -275,6 +275,29 @@ TEST_F(Track, Obstacles) {
   }
 }
 
+// The shipped carpet shows about [50, 128, 70]: half of a typical colour of twice that; and of another carpet, or of none,
+// no light is told.
+TEST_F(Track, LightThatIsNotThatOfTheClasses) {
+  EXPECT_EQ(track().output.find("light"), std::string::npos);
+  const auto track_with = [&](const char* typical) {
+    std::ofstream(data_ / "colours.yaml")
+        << "ball: {hue_deg: [5, 38], chroma: [0.25, 1.0], brightness: [0.25, 1.0]}\n"
+        << "field: {hue_deg: [90, 179], chroma: [0.10, 1.0], brightness: [0.10, 1.0]" << typical << "}\n";
+    const test::ProgramRun run = track("--colours " + (data_ / "colours.yaml").string());
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    return run.output;
+  };
+  const std::string half = track_with(", typical: [100, 255, 140]");
+  EXPECT_NE(half.find("\n  light by_carpet 15\n"), std::string::npos) << half;
+  EXPECT_EQ(half.find("unknown light"), std::string::npos) << half;
+  for (const char* typical : {", typical: [20, 200, 190]", ""}) {
+    const std::string unknown = track_with(typical);
+    EXPECT_NE(unknown.find("\n  light unknown 15\n  unknown light"), std::string::npos) << unknown;
+  }
+  replace("frames.csv", "images/000000_M2.png", "");
+  EXPECT_NE(track_with("").find("light unknown 14\n"), std::string::npos) << "a lost image has no light";
+}
+
 // Goals of no colour that colours.yaml knows, on a field that is said to have coloured ones: which half is open.
 TEST_F(Track, GoalsThatAreNotFound) {
   std::ofstream(data_ / "colours.yaml")

@@ -69,9 +69,45 @@ TEST(CurveCalibration, AnotherFieldHasNoCurve) {
   test::expect_error([&] { calibrate_curve(pixels, camera(), small); }, {"no curve", "omni", "field"});
 }
 
+// A start 4 px beside the centre, which the pixels tell, of a camera whose centre is known to 0.5 px: 8 of its σ.
+TEST(CurveCalibration, ChangesBeyondThePriorAreRefused) {
+  const Pixels pixels = picture(camera(), {-1.5, -4.0, 0.7});
+  omni::Camera start = camera();
+  std::get<omni::Radial>(start.model).u0 += 4.0;
+  EXPECT_NO_THROW(calibrate_curve(pixels, start, map()));
+  CurveOptions options;
+  options.sigma_centre_px = 0.5;
+  test::expect_error([&] { calibrate_curve(pixels, start, map(), options); },
+                     {"omni", "u0 changed by -", "more than 3 times the 0.5 px", "field"});
+}
+
+// A start of the right place whose lines keep bent: a tilt is nothing that the curve can undo.
+TEST(CurveCalibration, TiltedCameraIsRefused) {
+  omni::Camera tilted = camera();
+  tilted.tilt_x = radians(4.0);
+  const Pixels pixels = picture(tilted, {-1.5, -4.0, 0.7});
+  test::expect_error([&] { calibrate_curve(pixels, camera(), map()); }, {"omni", "field"});
+}
+
+// A real robot's pixels on a field that is larger than its own.
+TEST(CurveCalibration, RealRobotOnAnotherField) {
+  MOVIS_NEEDS_SHARED_DATA(test::nubot_folder(1));
+  const test::TemporaryFolder folder;
+  const omni::Camera start = omni::read_rig(folder.write("rig.yaml", test::nubot_rig(1))).cameras[0];
+  const localization::FieldMap large(read_field(data_file("fields/msl-22x14.yaml")));
+  Pixels pixels;
+  std::ifstream stream(test::nubot_folder(1) / "whites.txt");
+  for (double u = 0.0, v = 0.0; stream >> u >> v;) pixels.emplace_back(u, v);
+  test::expect_error([&] { calibrate_curve(pixels, start, large); }, {"omni", "field"});
+}
+
 TEST(CurveCalibration, TooFewPixels) {
-  test::expect_error([&] { calibrate_curve({{400.0, 240.0}}, camera(), map()); }, {"no curve", "no_landmark"});
-  test::expect_error([&] { calibrate_curve({}, camera(), map()); }, {"no curve", "no_landmark"});
+  test::expect_error(
+      [&] {
+        calibrate_curve({{400.0, 240.0}}, camera(), map());
+      },
+      {"no curve", "no_landmark", "give more"});
+  test::expect_error([&] { calibrate_curve({}, camera(), map()); }, {"no curve", "no_landmark", "give more"});
 }
 
 TEST(CurveCalibration, OnlyRadialCamerasHaveACurve) {

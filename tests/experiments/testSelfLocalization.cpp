@@ -118,7 +118,7 @@ TEST(SelfLocalizationSettings, ThePapersPoses) {
   EXPECT_EQ(settings.spots.front().name, "A");
   EXPECT_EQ(settings.spots.front().place, Eigen::Vector2d(-1.0, 1.1));
   EXPECT_EQ(settings.spots.back().place, Eigen::Vector2d(1.0, -1.1));
-  EXPECT_GE(settings.coloured_draws, 2) << "intervals are by draws";
+  EXPECT_GE(settings.coloured_draws, kFewestDraws) << "intervals are by draws";
 }
 
 TEST(SelfLocalizationSettings, WhiteGoalsAreForThoseThatCan) {
@@ -148,6 +148,7 @@ TEST(SelfLocalizationSettings, AreReadStrictly) {
                {"experiment: self-localization", "experiment: measurement", {"experiment", "self-localization"}},
                {"name: A, place: [-1.0, 1.1]", "name: A, place: [-1.6, 1.1]", {"spots", "0.25 m in radius", "1.75"}},
                {"name: A,", "name: \"A,B\",", {"name", "comma"}},
+               {"name: I,", "name: A,", {"changed.yaml:19", "spots[8].name", "'A'"}},
                {"heading_step_deg: 5\n", "heading_step_deg: 7\n", {"heading_step_deg", "divide 360"}},
                {"half_width: 4.0", "half_width: 0", {"half_width", "out of range"}},
                {"\ncoloured_draws: 10", "\ntriangulation: pears\ncoloured_draws: 10", {"pears", "pairs"}},
@@ -210,7 +211,9 @@ TEST(SelfLocalizationSummary, CellsByHand) {
   EXPECT_NEAR(spot->position_by_heading.at(1), 0.30, 1e-12);
 }
 
-// Cases that one of both did not answer do not count: (1 + 3)/(2 + 4).
+// Cases that one of both did not answer do not count: (1 + 3)/(2 + 4). Of two draws there is no interval. Of three like
+// either, k of the first kind and 6 − k of the other are picked with the probability (6 over k)/64, and give
+// (18 − 2k)/(24 − 2k). 1/64 for k = 0 is below 2.5 %, 7/64 for k ≤ 1 above it: from k = 5, 8/14, to k = 1, 16/22.
 TEST(SelfLocalizationSummary, RatiosArePaired) {
   const std::vector<SelfLocalizationRow> rows{
       row("nls", 0, 0, 0, 1.0, 0.0), row("composed", 0, 0, 0, 2.0, 0.0),
@@ -219,9 +222,17 @@ TEST(SelfLocalizationSummary, RatiosArePaired) {
   const LocalizerRatio r = localizer_ratio(rows, kColoured, Knowledge::corrected, "nls", "composed");
   EXPECT_EQ(r.cases, 2);
   EXPECT_NEAR(r.ratio.ratio, 4.0 / 6.0, 1e-12);
-  EXPECT_NEAR(r.ratio.interval.low, 0.5, 1e-12);  // draw 0 twice, or draw 1 twice
-  EXPECT_NEAR(r.ratio.interval.high, 0.75, 1e-12);
+  EXPECT_TRUE(std::isnan(r.ratio.interval.low) && std::isnan(r.ratio.interval.high));
   EXPECT_EQ(localizer_ratio(rows, kWhite, Knowledge::corrected, "nls", "composed").cases, 0);
+
+  std::vector<SelfLocalizationRow> six;
+  for (int draw = 0; draw < 6; ++draw) {
+    six.push_back(row("nls", draw, 0, 0, draw < 3 ? 1.0 : 3.0, 0.0));
+    six.push_back(row("composed", draw, 0, 0, draw < 3 ? 2.0 : 4.0, 0.0));
+  }
+  const LocalizerRatio of_six = localizer_ratio(six, kColoured, Knowledge::corrected, "nls", "composed");
+  EXPECT_NEAR(of_six.ratio.interval.low, 8.0 / 14.0, 1e-12);
+  EXPECT_NEAR(of_six.ratio.interval.high, 16.0 / 22.0, 1e-12);
 }
 
 const Observation::Ours& ours(const SelfLocalizationSummary& summary, const char* begin) {
@@ -234,9 +245,9 @@ const Observation::Ours& ours(const SelfLocalizationSummary& summary, const char
 // Draws that all say the same, draws that all say the opposite, and draws that do not agree with each other.
 TEST(SelfLocalizationSummary, VerdictsFollowFromDraws) {
   const auto settings = small_settings();
-  const auto summary_of = [&](double first, double second) {
+  const auto summary_of = [&](double first, double second, int draws = 6) {
     std::vector<SelfLocalizationRow> rows;
-    for (int draw = 0; draw < 4; ++draw) {
+    for (int draw = 0; draw < draws; ++draw) {
       rows.push_back(row("method1", draw, 0, 0, draw % 2 == 0 ? first : second, 0.02));
       rows.push_back(row("method2", draw, 0, 0, 0.02, draw % 2 == 0 ? first : second));
     }
@@ -246,6 +257,9 @@ TEST(SelfLocalizationSummary, VerdictsFollowFromDraws) {
     EXPECT_EQ(ours(summary_of(0.01, 0.012), method).verdict, "agrees");
     EXPECT_EQ(ours(summary_of(0.03, 0.05), method).verdict, "does not agree");
     EXPECT_EQ(ours(summary_of(0.01, 0.05), method).verdict, "not decided");
+    const Observation::Ours of_five = ours(summary_of(0.01, 0.012, 5), method);
+    EXPECT_EQ(of_five.verdict, "not decided: fewer than 6 draws");
+    EXPECT_EQ(of_five.figures.find("–"), std::string::npos) << of_five.figures;
   }
 }
 
@@ -254,12 +268,12 @@ TEST(SelfLocalizationSummary, SpotsAndTheLostGoal) {
   auto settings = small_settings();
   settings.spots = {{"A", {-1.0, 1.1}}, {"B", {0.0, 1.1}}};
   settings.heading_step_deg = 72;
-  const auto summary_of = [&](double of_a, const char* status) {
+  const auto summary_of = [&](double of_a, const char* status, const char* elsewhere = "ok", int draws = 6) {
     std::vector<SelfLocalizationRow> rows;
-    for (int draw = 0; draw < 4; ++draw) {
+    for (int draw = 0; draw < draws; ++draw) {
       for (int heading = 0; heading < 5; ++heading) {
         rows.push_back(row("composed", draw, 0, heading, of_a, 0.0, heading < 2 ? "ok" : status));
-        rows.push_back(row("composed", draw, 1, heading, 0.02, 0.0));
+        rows.push_back(row("composed", draw, 1, heading, 0.02, 0.0, heading < 2 ? "ok" : elsewhere));
       }
     }
     return summarize_self_localization(settings, 1, rows);
@@ -268,11 +282,20 @@ TEST(SelfLocalizationSummary, SpotsAndTheLostGoal) {
   EXPECT_EQ(ours(like_the_paper, "The spots on the Y axis").verdict, "agrees");
   EXPECT_EQ(ours(like_the_paper, "A and C").verdict, "agrees");
   EXPECT_EQ(ours(like_the_paper, "because").verdict, "agrees");
-  EXPECT_NE(ours(like_the_paper, "because").figures.find("12 of 20 on A and C, 0 of 20"), std::string::npos);
+  EXPECT_NE(ours(like_the_paper, "because").figures.find("18 of 30 on A and C, 0 of 30"), std::string::npos);
   const auto unlike = summary_of(0.01, "ok");
   EXPECT_EQ(ours(unlike, "The spots on the Y axis").verdict, "does not agree");
   EXPECT_EQ(ours(unlike, "A and C").verdict, "does not agree");
-  EXPECT_EQ(ours(unlike, "because").verdict, "does not agree");
+  EXPECT_EQ(ours(unlike, "because").verdict, "not tested: no goal was lost anywhere");
+  EXPECT_EQ(ours(summary_of(0.01, "ok", "one_goal"), "because").verdict, "does not agree");
+  EXPECT_EQ(ours(summary_of(0.01, "no_goal", "no_goal"), "because").verdict, "not decided");
+  const auto of_two = summary_of(0.05, "one_goal", "ok", 2);
+  for (const char* observation : {"The spots on the Y axis", "A and C", "because"}) {
+    EXPECT_EQ(ours(of_two, observation).verdict, "not decided: fewer than 6 draws");
+  }
+  EXPECT_NE(table_of(of_two).find("A and C are the worst spots: not decided: fewer than 6 draws (corrected)\n"),
+            std::string::npos);
+  EXPECT_EQ(ours(summary_of(0.05, "ok", "ok", 2), "because").verdict, "not tested: no goal was lost anywhere");
 }
 
 // One spot, 2 headings, 3 knowledges, by all localizers, and with white goals by those that can. How rows resume, and

@@ -110,6 +110,55 @@ TEST(LineMatch, PointsAnywhereAreABadFit) {
   EXPECT_EQ(match(points, {0.0, -3.0, 0.0}).fix.status, FixStatus::bad_fit);
 }
 
+// Pairs of points d to both sides of three lines leave the pose where it is and all |d_i| = d, so that with σ = 0.02 m
+// and w = 0.125 m the spread is 1.4826 d/√(0.02² + 0.125²/12) = 35.94 d/m: 1.437 at 4 cm, 1.797 at 5 cm, beyond 1.5. All
+// of them lie within half a line and 2 σ.
+TEST(LineMatch, SpreadBeyondSigmaAndLineIsABadFit) {
+  const Pose2 truth{1.5, -6.0, 0.8};
+  for (const double d : {0.04, 0.05}) {
+    std::vector<LinePoint> points;
+    for (const double side : {-d, d}) {
+      for (int i = 0; i < 40; ++i) {
+        points.push_back(seen_point(truth, {5.9375 + side, -7.0 + 0.1 * i}, 0.02));
+        points.push_back(seen_point(truth, {-2.5 + 0.125 * i, -6.8125 + side}, 0.02));
+        points.push_back(seen_point(truth, {3.5 + 0.025 * i, -8.9375 + side}, 0.02));
+      }
+    }
+    const LineFit fit = match(points, {1.6, -6.1, 0.75});
+    EXPECT_NEAR(fit.spread, 35.94 * d, 0.01);
+    EXPECT_EQ(fit.on_lines, 1.0);
+    EXPECT_EQ(fit.fix.status, d < 0.045 ? FixStatus::ok : FixStatus::bad_fit);
+  }
+}
+
+TEST(LineMatch, MoreLeftOutThanUsedIsABadFit) {
+  RandomStream random = make_stream(23, 0);
+  const Pose2 truth{1.0, -5.0, 0.0};
+  std::vector<LinePoint> points = white_points(large_field(), truth, 300, 6.0, 0.02, 0.0, random);
+  LinePoint vague = points.front();
+  vague.sigma_on_floor = 1.0;
+  points.resize(600, vague);
+  EXPECT_EQ(match(points, truth).fix.status, FixStatus::ok);
+  points.push_back(vague);
+  EXPECT_EQ(match(points, truth).fix.status, FixStatus::bad_fit);
+  EXPECT_EQ(find(points).fix.status, FixStatus::bad_fit);
+}
+
+// 300 points that count for 100 tell the variances of 100: three times those of 300.
+TEST(LineMatch, NeighboursCountForNoMoreThanTheIndependent) {
+  RandomStream random = make_stream(24, 0);
+  const Pose2 truth{1.0, -5.0, 0.0};
+  const std::vector<LinePoint> points = white_points(large_field(), truth, 300, 6.0, 0.02, 0.0, random);
+  LineMatchScratch scratch;
+  const auto covariance = [&](double independent) {
+    LineMatchOptions options;
+    options.independent = independent;
+    return match_lines(points, large_map(), truth, options, scratch).fix.covariance;
+  };
+  EXPECT_TRUE(covariance(100.0).isApprox(3.0 * covariance(300.0), 1e-9));
+  EXPECT_EQ(covariance(1000.0), covariance(300.0));
+}
+
 // One straight line, or one circle, leaves a direction free: no pose, found or matched from the true one.
 TEST(LineMatch, OneLineIsNoLandmark) {
   RandomStream random = make_stream(16, 0);
@@ -198,6 +247,8 @@ TEST(LineMatch, CovarianceIsConsistent) {
   constexpr int kDraws = 400;
   double sum = 0.0;
   LineMatchScratch scratch;
+  LineMatchOptions options;
+  options.independent = 300;  // as they are drawn
   for (int draw = 0; draw < kDraws; ++draw) {
     std::vector<LinePoint> points;
     for (int i = 0; i < 100; ++i) {  // side line, penalty area's front, goal line away from other lines
@@ -205,7 +256,7 @@ TEST(LineMatch, CovarianceIsConsistent) {
       points.push_back(seen_point(truth, {-2.5 + 5.0 * along(random), -6.8125 + normal(random)}, 0.02));
       points.push_back(seen_point(truth, {3.5 + along(random), -8.9375 + normal(random)}, 0.02));
     }
-    const LineFit fit = match_lines(points, large_map(), {1.6, -6.1, 0.75}, {}, scratch);
+    const LineFit fit = match_lines(points, large_map(), {1.6, -6.1, 0.75}, options, scratch);
     ASSERT_EQ(fit.fix.status, FixStatus::ok);
     const Pose2& pose = fit.fix.world_from_robot;
     const Eigen::Vector3d e(pose.x - truth.x, pose.y - truth.y, turn(truth.beta, pose.beta));

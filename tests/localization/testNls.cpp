@@ -105,6 +105,7 @@ void see_lines(Scene& scene, const Pose2& world_from_robot) {
     point.camera = 0;
     point.point = robot_from_world * in_field;
     point.sigma_on_floor = 0.003;
+    point.sigma = 0.003 * 0.25 / (point.point.squaredNorm() + 0.25 * 0.25);  // seen from 0.25 m above the floor
     if (point.point.norm() < 2.5) scene.lines.push_back(point);
   };
   for (double along = -0.98; along < 1.0; along += 0.04) {
@@ -191,14 +192,18 @@ TEST(Nls, NothingSeen) {
   EXPECT_EQ(scene.fix().status, FixStatus::no_landmark);
 }
 
-// Seen from 1.3 m before it by three cameras 0.35 m apart, one goal is enough; by one camera it is not.
+// Seen from 1.3 m before it by three cameras 0.35 m apart, one goal tells the pose; but it is believed only where the
+// lines say so too. By one camera it is not told.
 TEST(Nls, OneGoalInSight) {
   Scene scene;
   const Pose2 truth{0.4, 0.7, 1.0};
   for (int camera = 0; camera < 3; ++camera) {
     scene.bearings.push_back(seen(scene, truth, camera, ObjectClass::yellow_goal));
   }
+  EXPECT_EQ(scene.fix().status, FixStatus::one_goal);
+  see_lines(scene, truth);
   expect_pose(scene.fix(), truth, 1e-4);
+  scene.lines.clear();
   scene.bearings.resize(1);
   EXPECT_EQ(scene.fix().status, FixStatus::one_goal);
 }
@@ -223,8 +228,21 @@ TEST(Nls, CoveredEdgesAreFoundOut) {
       if (bearing.object == ObjectClass::blue_goal) bearing.left -= radians(covered_deg);
     }
     scene.bearings[0].right += radians(0.5 * covered_deg);
+    see_lines(scene, truth);
     expect_pose(scene.fix(), truth, 0.01);
+    scene.lines.clear();
   }
+}
+
+// A field file whose goals stand elsewhere: the edges of either goal alone would do.
+TEST(Nls, GoalsElsewhereThanTheFileSays) {
+  Scene scene;
+  look(scene, {0.5, 0.3, 0.4});
+  see_lines(scene, {0.5, 0.3, 0.4});
+  Field other = paper_field();
+  other.Fd += 0.5;
+  const FieldMap map(other);
+  EXPECT_EQ(nls({scene.rig, scene.bearings, scene.goals, scene.lines}, map, {}).status, FixStatus::bad_fit);
 }
 
 // The edges of a goal that shines into its surroundings: the bias is told apart from the pose.

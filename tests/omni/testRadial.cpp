@@ -133,6 +133,7 @@ TEST(Radial, BadFilesAreNamed) {
   };
   const std::string good = "  model: radial\n  radial: {a: 1.5, b: 0.007, u0: 250, v0: 240}\n";
   expect_named(good, "0", {"rig.yaml", "position", "above it"});
+  expect_named(good, "0.009", {"rig.yaml", "position", "above it"});
   expect_named(good + "  pinhole: {fu: 1, fv: 1, u0: 0, v0: 0}\n", "1", {"pinhole", "beside `model: radial`"});
   expect_named("  model: unified\n  radial: {a: 1.5, b: 0.007, u0: 250, v0: 240}\n", "1", {"radial", "beside"});
   expect_named("  model: radial\n", "1", {"radial"});

@@ -119,6 +119,17 @@ TEST(RigWriter, DegreesOfAFileStayThemselves) {
   }
 }
 
+TEST(RigWriter, ZeroHasNoSign) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "rig.yaml";
+  for (const double zero : {0.0, -0.0}) {
+    Camera camera = mirror_camera("M1");
+    camera.yaw = camera.tilt_x = camera.tilt_y = zero;
+    write_rig({{camera}}, file);
+    EXPECT_NE(content(file).find("yaw_deg: 0\n  tilt_deg: [0, 0]\n"), std::string::npos) << content(file);
+  }
+}
+
 TEST(RigWriter, UncommonNames) {
   const TemporaryFolder folder;
   for (const char* name : {"null", "front: left", "#1", "- x", "a\"b\\c", "007", "kamera süd", "~", " two "}) {

@@ -54,10 +54,11 @@ TEST(ColoursFile, ReadsWhatStandsInIt) {
 
 TEST(ColoursFile, TypicalColoursOfCarpetAndLines) {
   const std::string bounds = "hue_deg: [0, 360], chroma: [0.1, 1.0], brightness: [0.1, 1.0]";
+  const std::string white = "hue_deg: [0, 360], chroma: [0.0, 0.1], brightness: [0.7, 1.0]";
   EXPECT_FALSE(colours_of(ball_with("[5, 38]")).typical.field);
   EXPECT_FALSE(colours_of(ball_with("[5, 38]") + "field: {" + bounds + "}\n").typical.field);
   const Colours colours = colours_of(ball_with("[5, 38]") + "field: {" + bounds + ", typical: [50, 128, 70]}\nline: {" +
-                                     bounds + ", typical: [228, 228, 225.5]}\n");
+                                     white + ", typical: [228, 228, 225.5]}\n");
   ASSERT_TRUE(colours.typical.field && colours.typical.line);
   EXPECT_EQ(*colours.typical.field, Eigen::Vector3d(50, 128, 70));
   EXPECT_EQ(*colours.typical.line, Eigen::Vector3d(228, 228, 225.5));
@@ -65,6 +66,31 @@ TEST(ColoursFile, TypicalColoursOfCarpetAndLines) {
   expect_error([&] { colours_of("field: {" + bounds + ", typical: [1, 2]}\n"); }, {"colours.yaml:1", "field.typical"});
   expect_error([&] { colours_of("field: {" + bounds + ", typical: [0, 2, 3]}\n"); },
                {"colours.yaml:1", "field.typical", "range"});
+}
+
+// By hand, of [50, 128, 70]: α = 50 − 99 = −49, β = √3/2 · 58 = 50.2, so a hue of 134.3°; brightness 128/255 = 0.502,
+// chroma 78/255 = 0.306. With red and green swapped, [128, 50, 70]: α = 68, β = −17.3, 345.7°.
+TEST(ColoursFile, TypicalColourIsOfItsClass) {
+  const auto field = [](const std::string& rgb, const std::string& hue = "[90, 170]",
+                        const std::string& chroma = "[0.1, 0.5]", const std::string& brightness = "[0.1, 0.9]") {
+    return colours_of(ball_with("[5, 38]") + "\nfield: {hue_deg: " + hue + ", chroma: " + chroma +
+                      ", brightness: " + brightness + ", typical: " + rgb + "}\n");
+  };
+  const auto refused = [](auto statement, const char* what) {
+    expect_error(statement, {"colours.yaml:3", "field.typical", "its own class", what});
+  };
+  for (const char* hue : {"[90, 170]", "[134, 135]", "[-230, -220]", "[0, 360]"}) {
+    EXPECT_TRUE(field("[50, 128, 70]", hue).typical.field) << hue;
+  }
+  EXPECT_TRUE(field("[128, 50, 70]", "[340, 10]").typical.field);
+  EXPECT_TRUE(field("[128, 70, 50]", "[340, 20]").typical.field);  // 14.3°: beyond 0
+  refused([&] { field("[128, 50, 70]"); }, "hue 345.7°, outside [90, 170]");
+  refused([&] { field("[128, 50, 70]", "[10, 30]"); }, "hue 345.7°");
+  refused([&] { field("[50, 128, 70]", "[340, 10]"); }, "hue 134.3°, outside [340, 10]");
+  refused([&] { field("[255, 255, 255]"); }, "brightness 1.000, outside [0.1, 0.9]");
+  refused([&] { field("[20, 25, 22]"); }, "brightness 0.098");
+  refused([&] { field("[200, 200, 200]"); }, "chroma 0.000, outside [0.1, 0.5]");
+  refused([&] { field("[50, 200, 70]"); }, "chroma 0.588");
 }
 
 TEST(ColoursFile, EveryHueAndWrappedHues) {

@@ -206,6 +206,21 @@ TEST(DegenerateLight, TooDarkToBelieve) {
   EXPECT_EQ(light_of(Floor({14, 36, 21}).view()).status, LightStatus::unknown);
 }
 
+// A balance is believed from 1/1.6 to 1.6. Of 50 and 74 beside 130, these are 31.25 and 80, 46.25 and 118.4. Beyond, no
+// pixel is recognized as carpet, and the image is taken as it is.
+TEST(DegenerateLight, BalanceAtTheLimitOfBelief) {
+  for (const auto& [red, blue] : {std::pair{32, 74}, {79, 74}, {50, 47}, {50, 118}}) {
+    const Illumination light = light_of(Floor(Eigen::Vector3d(red, 130, blue)).view());
+    EXPECT_EQ(light.status, LightStatus::by_carpet) << red << " " << blue;
+    expect_gains(light, red / 50.0, 1.0, blue / 74.0);
+  }
+  for (const auto& [red, blue] : {std::pair{30, 74}, {82, 74}, {50, 45}, {50, 120}}) {
+    const Illumination light = light_of(Floor(Eigen::Vector3d(red, 130, blue)).view());
+    EXPECT_EQ(light.status, LightStatus::unknown) << red << " " << blue;
+    expect_gains(light, 1.0, 1.0, 1.0, 0.0);
+  }
+}
+
 // With gains of ½, 1 and 2 each byte is doubled, kept and halved, rounded up; beyond 255 it is cut off. Rows of any
 // length, with a gap behind each.
 TEST(RemoveGains, IsADivisionInEveryFormat) {

@@ -126,6 +126,16 @@ TEST(Obstacles, UnknownCamera) {
   EXPECT_THROW(merge(paper_rig(), {{7, 1.0, 0.9, 1.0, 0.02}}), Error);
 }
 
+TEST(Obstacles, MoreCamerasThanAreCounted) {
+  omni::Rig rig;
+  rig.cameras.resize(32);
+  const auto obstacles = merge(rig, {{31, 1.0, 0.9, 1.0, 0.02}, {0, 1.0, 0.9, 1.0, 0.02}});
+  ASSERT_EQ(obstacles.size(), 1U);
+  EXPECT_EQ(obstacles[0].cameras, 2);
+  rig.cameras.resize(33);
+  EXPECT_THROW(merge(rig, {{32, 1.0, 0.9, 1.0, 0.02}}), Error);
+}
+
 Bearing goal(int camera, double left, double right) {
   Bearing bearing;
   bearing.camera = camera;
@@ -143,15 +153,28 @@ TEST(CoveredEdges, WithinAndAtTheBorder) {
     hide_covered_edges({{1, left, right, 1.0, 0.02}}, bearings);
     EXPECT_NEAR(bearings[0].left_variance, 0.09, 1e-12);
     EXPECT_EQ(bearings[0].right_variance, 1e-6);
+    EXPECT_EQ(bearings[0].left_flags, kCutByObject);
+    EXPECT_EQ(bearings[0].right_flags, 0);
     EXPECT_EQ(bearings[0].flags, kCutByObject);
   }
+}
+
+// What the scan flagged stays.
+TEST(CoveredEdges, FlagsAddUp) {
+  std::vector<Bearing> bearings{goal(1, 1.8, 1.2)};
+  bearings[0].left_flags = kNearSensor;
+  bearings[0].flags = kNearSensor | kCutByBody;
+  hide_covered_edges({{1, 1.3, 1.1, 1.0, 0.02}}, bearings);
+  EXPECT_EQ(bearings[0].left_flags, kNearSensor);
+  EXPECT_EQ(bearings[0].right_flags, kCutByObject);
+  EXPECT_EQ(bearings[0].flags, kNearSensor | kCutByBody | kCutByObject);
 }
 
 TEST(CoveredEdges, NotByOthers) {
   std::vector<Bearing> bearings{goal(1, 1.8, 1.2)};
   hide_covered_edges({{0, 1.9, 1.7, 1.0, 0.02}, {1, 1.6, 1.4, 1.0, 0.02}, {1, 2.2, 1.9, 1.0, 0.02}}, bearings);
   EXPECT_EQ(bearings[0].left_variance, 1e-6);
-  EXPECT_EQ(bearings[0].flags, 0);
+  EXPECT_EQ(bearings[0].flags | bearings[0].left_flags | bearings[0].right_flags, 0);
 }
 
 TEST(CoveredEdges, AcrossTheBackAndNoBall) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "movis/localization/localizer.h"
+
 namespace movis::app {
 
 struct DemoArguments {
@@ -13,7 +15,7 @@ struct DemoArguments {
   std::optional<std::filesystem::path> rows;
   std::optional<std::filesystem::path> scenario;
   std::vector<std::string> controllers = {"fuzzy", "pbvs"};
-  std::string localizer = "composed";
+  std::string localizer{localization::kDefaultLocalizer};
   int episodes = 6;
   std::int64_t seed = 1;  // of the first episode; the others count on from it
 };

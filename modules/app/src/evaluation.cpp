@@ -61,10 +61,13 @@ BallError ball_error(const Eigen::Vector2d& ball_in_robot, const grab::Truth& tr
           (ball_in_robot - expected).norm()};
 }
 
+Fix nearer_half(const Fix& fix, const Pose2& truth) {
+  const bool other = fix.symmetric && std::abs(turn(truth.beta, fix.world_from_robot.beta)) > 0.5 * kPi;
+  return other ? half_turned(fix) : fix;
+}
+
 PoseError pose_error(const Fix& measured, const grab::Truth& truth) {
-  // Of the two poses of a symmetric fix one is at most a quarter of a turn off.
-  const double off = turn(truth.world_from_robot.beta, measured.world_from_robot.beta);
-  const Fix fix = measured.symmetric && std::abs(off) > 0.5 * kPi ? half_turned(measured) : measured;
+  const Fix fix = nearer_half(measured, truth.world_from_robot);
   const Eigen::Vector3d error(fix.world_from_robot.x - truth.world_from_robot.x,
                               fix.world_from_robot.y - truth.world_from_robot.y,
                               turn(truth.world_from_robot.beta, fix.world_from_robot.beta));
@@ -79,6 +82,7 @@ void Evaluation::add(const pipeline::Estimate& estimate, const grab::Truth& trut
   if (estimate.fix.status != FixStatus::no_field) ++poses_sought_;
   Poses& poses = poses_[truth.label];
   ++poses.frames;
+  symmetric_ = symmetric_ || estimate.fix.symmetric;
   if (estimate.fix.status == FixStatus::ok) poses.errors.push_back(pose_error(estimate.fix, truth));
 }
 
@@ -101,7 +105,8 @@ std::string Evaluation::table() const {
   if (poses_sought_ == 0) return text;
   std::vector<PoseError> all;
   for (const auto& [label, poses] : poses_) all.insert(all.end(), poses.errors.begin(), poses.errors.end());
-  fmt::format_to(out, "  pose: {} of {} found\n", all.size(), frames_);
+  fmt::format_to(out, "  pose: {} of {} found{}\n", all.size(), frames_,
+                 symmetric_ ? "; of two that are half a turn apart, the nearer one" : "");
   if (all.empty()) return text;
   text += kPoseHeader;
   if (poses_.size() > 1 && poses_.size() <= kMostLabels) {

@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
 std::string_view next_word(std::string_view& text) {
   const auto first = std::min(text.find_first_not_of(kBlank), text.size());
@@ -56,6 +57,7 @@ std::vector<Eigen::Vector2d> read_line_pixels(const fs::path& file, const omni::
   std::vector<Eigen::Vector2d> pixels;
   std::string text;
   for (int line = 1; std::getline(stream, text); ++line) {
+    if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
     std::string_view rest = std::string_view(text).substr(0, text.find('#'));
     const std::string_view column = next_word(rest);
     const std::string_view row = next_word(rest);

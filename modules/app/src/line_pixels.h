@@ -16,7 +16,7 @@ namespace movis::app {
 int choose_camera(const omni::Rig& rig, const std::optional<std::string>& name, const std::filesystem::path& rig_file);
 
 // Reads white-line pixels: `column row` a line, separated by blanks or tabs; what follows a # is a comment. Anything
-// else, a pixel outside the camera's image, and a file without pixels are an Error that names file and line.
+// else (but a byte order mark at the file's begin), a pixel outside the camera's image, and a file without pixels are an Error that names file and line.
 std::vector<Eigen::Vector2d> read_line_pixels(const std::filesystem::path& file, const omni::Camera& camera);
 
 }  // namespace movis::app

@@ -50,6 +50,47 @@ std::string count_statuses(const std::map<std::string, int>& counts) {
   return text;
 }
 
+// Images, by what was recognized of their light.
+using LightCounts = std::map<std::string, int>;
+
+const char* word(scan::LightStatus status) {
+  switch (status) {
+    case scan::LightStatus::reference:
+      return "reference";
+    case scan::LightStatus::by_carpet:
+      return "by_carpet";
+    case scan::LightStatus::by_lines:
+      return "by_lines";
+    default:
+      return "unknown";
+  }
+}
+
+void add_lights(const pipeline::Pipeline& pipeline, const grab::FrameSet& images, LightCounts& counts) {
+  for (std::size_t camera = 0; camera < images.frames.size(); ++camera) {
+    if (!images.frames[camera].lost()) ++counts[word(pipeline.scanners[camera].light().status)];
+  }
+}
+
+// Nothing where all images are in the light that the classes are made for.
+std::string light_lines(const LightCounts& counts) {
+  const auto of = [&](scan::LightStatus status) {
+    const auto found = counts.find(word(status));
+    return found != counts.end() ? found->second : 0;
+  };
+  int images = 0;
+  for (const auto& [status, count] : counts) images += count;
+  if (of(scan::LightStatus::reference) == images) return {};
+  std::string text = fmt::format("  light {}\n", count_statuses(counts));
+  if (2 * of(scan::LightStatus::unknown) > images) {
+    text +=
+        "  unknown light: these images were taken as they are; too little in them is the typical carpet, in any light "
+        "that "
+        "is\n  believed. Give colour classes for them, with the carpet as field and typical, by --colours\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 void track(const TrackArguments& arguments) {
@@ -73,6 +114,7 @@ void track(const TrackArguments& arguments) {
   if (arguments.obstacles) obstacles.emplace(*arguments.obstacles);
   Evaluation evaluation;
   std::map<std::string, int> ball_statuses, pose_statuses;
+  LightCounts lights;
   std::vector<double> ticks_us;
   std::optional<TrackFrames> frames;
   if (arguments.page) frames.emplace(arguments.data.filename().string(), pipeline.rig, sets);
@@ -85,6 +127,7 @@ void track(const TrackArguments& arguments) {
     if (obstacles) obstacles->add(estimate);
     ++ball_statuses[word(estimate.ball_in_robot.status)];
     ++pose_statuses[word(estimate.fix.status)];
+    add_lights(pipeline, images, lights);
     ticks_us.push_back(estimate.tick_us);
     const auto found = truth.find(estimate.index);
     const grab::Truth* true_state = found != truth.end() ? &found->second : nullptr;
@@ -106,6 +149,7 @@ void track(const TrackArguments& arguments) {
 
   fmt::print("{} sets of {} images: median tick {:.0f} µs\n  ball  {}\n  pose  {}\n", sets, pipeline.rig.cameras.size(),
              median(ticks_us), count_statuses(ball_statuses), count_statuses(pose_statuses));
+  fmt::print("{}", light_lines(lights));
   if (!truth.empty()) fmt::print("{}", evaluation.table());
   fmt::print("estimates: {}\n", arguments.out.string());
   if (arguments.obstacles) fmt::print("obstacles: {}\n", arguments.obstacles->string());

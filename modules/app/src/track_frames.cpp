@@ -46,7 +46,7 @@ void TrackFrames::add(const pipeline::Pipeline& pipeline, const grab::FrameSet& 
     frame.cameras.push_back(camera_picture(pipeline, i, makers_[i], images));
   }
   frame.ball_in_robot = pipeline.estimate.ball_in_robot;
-  frame.fix = pipeline.estimate.fix;
+  frame.fix = truth != nullptr ? nearer_half(pipeline.estimate.fix, truth->world_from_robot) : pipeline.estimate.fix;
   frame.tick_us = pipeline.estimate.tick_us;
   if (pipeline.map) frame.field = pipeline.map->field;
   if (truth != nullptr) {

@@ -114,8 +114,9 @@ void solve(std::vector<LineDistance>& distances, const CurveOptions& options, do
 
 std::vector<LinePoint> on_floor(const std::vector<Eigen::Vector2d>& pixels, const omni::Camera& camera, double line) {
   std::vector<LinePoint> points;
+  // Without a place on the floor the point has no sigma either: it is left out, but counts as such.
   for (const Eigen::Vector2d& pixel : pixels)
-    if (const auto point = localization::line_point(camera, 0, pixel, line)) points.push_back(*point);
+    points.push_back(localization::line_point(camera, 0, pixel, line).value_or(LinePoint{}));
   return points;
 }
 
@@ -129,6 +130,49 @@ std::vector<LineDistance> distances_of(const std::vector<Eigen::Vector2d>& pixel
       distances.push_back({start, start.robot_from_camera(), map, {pixel, point->sigma_on_floor}});
   }
   return distances;
+}
+
+constexpr const char* kWhatToDo =
+    "is it the field, and the camera, of the picture? If so, give the rig a start nearer to the truth";
+
+void refuse_what_fits_badly(const LineFit& fit, std::size_t pixels, const std::string& camera) {
+  if (fit.fix.status == FixStatus::ok) return;
+  if (fit.fix.status == FixStatus::no_landmark) {
+    throw Error("camera {}: no curve is told by {} white-line pixels (no_landmark); give more, of several lines",
+                camera, pixels);
+  }
+  throw Error("no curve explains the {} white-line pixels of camera {} ({}); {}", pixels, camera, word(fit.fix.status),
+              kWhatToDo);
+}
+
+// A curve that must leave what is known of it to bring the pixels onto lines brings them onto wrong ones.
+void refuse_large_changes(const double* change, const CurveOptions& options, const std::string& camera) {
+  const auto refuse = [&](const char* name, double by, double sigma, const char* unit) {
+    if (std::abs(by) <= options.most_sigmas * sigma) return;
+    throw Error(
+        "camera {}: only a curve with {} changed by {:.3g}{} brings the pixels onto lines, more than {} times "
+        "the {:.3g}{} that one differs by; {}",
+        camera, name, by, unit, options.most_sigmas, sigma, unit, kWhatToDo);
+  };
+  refuse("a", 100.0 * change[0], 100.0 * options.sigma_a, " %");
+  refuse("b", 100.0 * change[1], 100.0 * options.sigma_b, " %");
+  refuse("u0", change[2], options.sigma_centre_px, " px");
+  refuse("v0", change[3], options.sigma_centre_px, " px");
+}
+
+// Pixels that fill the lines lie within half a line from its middle, but for what a pixel is on the floor.
+void refuse_large_distances(double median_distance, const std::vector<LineDistance>& distances, double line,
+                            const std::string& camera) {
+  std::vector<double> sigmas;
+  for (const LineDistance& distance : distances) sigmas.push_back(distance.seen.sigma);
+  const double sigma = median(sigmas);
+  const double pixel = std::sqrt(std::max(0.0, sigma * sigma - line * line / 12.0)) / kNormalMedian;
+  const double limit = std::hypot(0.5 * line, pixel);
+  if (median_distance <= limit) return;
+  throw Error(
+      "camera {}: the best curve leaves the pixels {:.3f} m from the lines in the median, more than the {:.3f} m "
+      "that half a line and a pixel explain; {}",
+      camera, median_distance, limit, kWhatToDo);
 }
 
 }  // namespace
@@ -153,10 +197,9 @@ CurveCalibration calibrate_curve(const std::vector<Eigen::Vector2d>& pixels, con
   result.camera.model = changed(*model, change);
   result.after = match_lines(on_floor(pixels, result.camera, map.field.line), map,
                              {pose[0], pose[1], wrap_angle(pose[2])}, {}, scratch);
-  if (result.after.fix.status != FixStatus::ok) {
-    throw Error("no curve explains the {} white-line pixels of camera {}: {}; is the field the right one?",
-                pixels.size(), start.name, word(result.after.fix.status));
-  }
+  refuse_what_fits_badly(result.after, pixels.size(), start.name);
+  refuse_large_changes(change, options, start.name);
+  refuse_large_distances(result.after.median, distances, map.field.line, start.name);
   result.world_from_robot = result.after.fix.world_from_robot;
   result.pixels = result.after.points;
   return result;
@@ -167,7 +210,8 @@ double median_distance(const std::vector<Eigen::Vector2d>& pixels, const omni::C
   const double largest_sigma = localization::LineMatchOptions{}.largest_sigma;
   std::vector<double> sizes;
   for (const LinePoint& point : on_floor(pixels, camera, map.field.line))
-    if (point.sigma_on_floor <= largest_sigma) sizes.push_back(std::abs(map.lines.offset(pose * point.point).distance));
+    if (point.sigma_on_floor > 0.0 && point.sigma_on_floor <= largest_sigma)
+      sizes.push_back(std::abs(map.lines.offset(pose * point.point).distance));
   return median(sizes);
 }
 

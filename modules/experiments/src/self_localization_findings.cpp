@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "movis/core/angle.h"
@@ -37,7 +38,9 @@ Ratio ratio_of(const SumPairs& draws) {
   for (const auto& [draw, pair] : draws) {
     if (pair.first.count > 0 && pair.second.count > 0) pairs.push_back(pair);
   }
-  return experiments::ratio_of(pairs);
+  Ratio result = experiments::ratio_of(pairs);
+  if (pairs.size() < kFewestDraws) result.interval = {kUnknown, kUnknown};
+  return result;
 }
 
 std::string text_of(const Ratio& r) {
@@ -49,6 +52,7 @@ std::string text_of(const Ratio& r) {
 constexpr const char* kAgrees = "agrees";
 constexpr const char* kDiffers = "does not agree";
 constexpr const char* kUndecided = "not decided";
+constexpr const char* kUntested = "not tested: no goal was lost anywhere";
 
 // The paper says that all of these are below 1.
 const char* below_one(const std::vector<Ratio>& ratios) {
@@ -160,17 +164,22 @@ Observation::Ours goal_lost(const Group& group, const SelfLocalizationSettings& 
     (here ? lost : lost_elsewhere) += one ? 1 : 0;
   });
   const Interval here = wilson_interval(lost, asked), elsewhere = wilson_interval(lost_elsewhere, asked_elsewhere);
-  const char* verdict = here.low > elsewhere.high ? kAgrees : lost == 0 ? kDiffers : kUndecided;
+  const char* verdict = lost + lost_elsewhere == 0  ? kUntested
+                        : here.low > elsewhere.high ? kAgrees
+                        : lost == 0                 ? kDiffers
+                                                    : kUndecided;
   return {group.knowledge,
           fmt::format("a goal was not seen in {} of {} on A and C, {} of {} elsewhere", lost, asked, lost_elsewhere,
                       asked_elsewhere),
           verdict};
 }
 
-bool asked(const Group& group) {
-  return std::any_of(group.rows.begin(), group.rows.end(), [&](const SelfLocalizationRow& row) {
-    return row.goals == group.goals && row.knowledge == group.knowledge;
-  });
+int draws_of(const Group& group) {
+  std::set<int> draws;
+  for (const SelfLocalizationRow& row : group.rows) {
+    if (row.goals == group.goals && row.knowledge == group.knowledge) draws.insert(row.draw);
+  }
+  return static_cast<int>(draws.size());
 }
 
 }  // namespace
@@ -204,13 +213,20 @@ std::vector<Observation> observations_of(const SelfLocalizationSettings& setting
                                         {"because the blue goal was lost there", {}}};
   for (const Knowledge knowledge : kLocalizationKnowledges) {
     const Group group{rows, Field::Goals::coloured, knowledge};
-    if (!asked(group)) continue;
-    observations[0].ours.push_back(better_axis(group, "method1", 0, 1));
-    observations[1].ours.push_back(better_axis(group, "method2", 1, 0));
-    observations[2].ours.push_back(composed_best(group));
-    observations[3].ours.push_back(axis_best(group, settings));
-    observations[4].ours.push_back(a_and_c_worst(group, settings));
-    observations[5].ours.push_back(goal_lost(group, settings));
+    const int draws = draws_of(group);
+    if (draws == 0) continue;
+    const auto add = [&](std::size_t observation, Observation::Ours ours) {
+      if (draws < kFewestDraws && ours.verdict != kUntested) {
+        ours.verdict = fmt::format("{}: fewer than {} draws", kUndecided, kFewestDraws);
+      }
+      observations[observation].ours.push_back(std::move(ours));
+    };
+    add(0, better_axis(group, "method1", 0, 1));
+    add(1, better_axis(group, "method2", 1, 0));
+    add(2, composed_best(group));
+    add(3, axis_best(group, settings));
+    add(4, a_and_c_worst(group, settings));
+    add(5, goal_lost(group, settings));
   }
   observations.erase(
       std::remove_if(observations.begin(), observations.end(), [](const Observation& o) { return o.ours.empty(); }),

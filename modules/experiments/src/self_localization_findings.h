@@ -7,7 +7,7 @@
 namespace movis::experiments {
 
 // The paper's observations (§3.1, §3.2, §4.1) beside ours, with coloured goals. A verdict follows from a mean error as a
-// multiple of another, by its bootstrap interval over draws.
+// multiple of another, by its bootstrap interval over at least kFewestDraws draws.
 std::vector<Observation> observations_of(const SelfLocalizationSettings& settings,
                                          const std::vector<SelfLocalizationRow>& rows);
 

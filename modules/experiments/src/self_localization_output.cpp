@@ -105,9 +105,13 @@ std::string table_of(const SelfLocalizationSummary& summary) {
   }
   for (const Observation& observation : summary.observations) {
     table += fmt::format("  {}:", observation.paper);
-    for (const Observation::Ours& ours : observation.ours) {
-      table +=
-          fmt::format("{} {} ({})", &ours == observation.ours.data() ? "" : ",", ours.verdict, word(ours.knowledge));
+    for (std::size_t i = 0; i < observation.ours.size(); ++i) {
+      const Observation::Ours& ours = observation.ours[i];
+      const bool first = i == 0 || observation.ours[i - 1].verdict != ours.verdict;
+      const bool last = i + 1 == observation.ours.size() || observation.ours[i + 1].verdict != ours.verdict;
+      table += first ? fmt::format("{} {} (", i == 0 ? "" : ",", ours.verdict) : ", ";
+      table += word(ours.knowledge);
+      if (last) table += ')';
     }
     table += '\n';
   }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "drawn_rig.h"
@@ -21,8 +22,10 @@ void read_spots(const YamlMap& map, SelfLocalizationSettings& settings) {
   for (const YamlMap& spot : map.list_of_maps("spots")) {
     spot.allow({"name", "place"});
     const std::vector<double> place = spot.numbers("place", 2, {-50.0, 50.0});
-    settings.spots.push_back({spot.text("name"), {place[0], place[1]}});
-    const Spot& read = settings.spots.back();
+    const Spot read{spot.text("name"), {place[0], place[1]}};
+    const bool twice = std::any_of(settings.spots.begin(), settings.spots.end(),
+                                   [&](const Spot& other) { return other.name == read.name; });
+    if (twice) spot.fail("name", fmt::format("is '{}', as that of a spot before; give each its own", read.name));
     if (read.name.find_first_of(",\n") != std::string::npos) spot.fail("name", "has a comma or a line's end in it");
     const double r = settings.robot.radius;
     if (std::abs(place[0]) + r > settings.field.half_width || std::abs(place[1]) + r > settings.field.half_length) {
@@ -30,6 +33,7 @@ void read_spots(const YamlMap& map, SelfLocalizationSettings& settings) {
                                      "centre spot; move it inwards",
                                      r, settings.field.half_width, settings.field.half_length));
     }
+    settings.spots.push_back(read);
   }
   if (settings.spots.empty()) map.fail("spots", "is empty; give it at least one spot");
 }

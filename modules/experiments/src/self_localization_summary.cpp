@@ -26,7 +26,9 @@ ErrorStatistics statistics_over(const Rows& rows, Magnitude magnitude) {
   }
   std::vector<Sum> sums;
   for (const auto& [draw, sum] : by_draw) sums.push_back(sum);
-  return statistics_of(std::move(magnitudes), sums);
+  ErrorStatistics result = statistics_of(std::move(magnitudes), sums);
+  if (sums.size() < kFewestDraws) result.mean_interval = {kUnknown, kUnknown};
+  return result;
 }
 
 void add_statistics(const Rows& rows, SelfLocalizationCell& cell) {

@@ -59,8 +59,9 @@ UnifiedSphere read_unified(const YamlMap& camera) {
 Radial read_radial(const YamlMap& camera, double height) {
   const YamlMap map = camera.map("radial");
   map.allow({"a", "b", "u0", "v0", "max_radius_px"});
-  if (!(height > 0.0)) {
-    camera.fail("position", "`model: radial` is known by what it shows of the floor, so the camera must be above it");
+  if (!(height >= 0.01)) {
+    camera.fail("position",
+                "`model: radial` is known by what it shows of the floor, so the camera must be 1 cm or more above it");
   }
   Radial model;
   model.a = map.number("a", {0.001, 100.0});

@@ -45,7 +45,7 @@ std::string in_degrees(double angle) {
   for (int i = 0; i < 3; ++i) candidate = std::nextafter(candidate, -kInfinity);
   for (int i = 0; i < 7; ++i, candidate = std::nextafter(candidate, kInfinity)) {
     if (radians(candidate) != angle) continue;
-    const std::string text = fmt::format("{}", candidate);
+    const std::string text = fmt::format("{}", candidate + 0.0);  // no −0
     if (best.empty() || text.size() < best.size()) best = text;
   }
   return best.empty() ? fmt::format("{}", degrees(angle)) : best;

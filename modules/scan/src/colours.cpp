@@ -1,5 +1,7 @@
 #include "movis/scan/colours.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,10 +44,37 @@ ColourClass read_class(const YamlMap& map, ObjectClass object) {
   return colour;
 }
 
-std::optional<Eigen::Vector3d> read_typical(const YamlMap& map) {
+// What is wrong about a colour of the class; empty where nothing is. Red, green, blue in bytes.
+std::string outside(const ColourClass& colour, const Eigen::Vector3d& rgb) {
+  const double brightness = rgb.maxCoeff() / 255.0;
+  const double chroma = brightness - rgb.minCoeff() / 255.0;
+  const auto within = [](double value, double min, double max) { return value >= min && value <= max; };
+  if (!within(brightness, colour.brightness_min, colour.brightness_max)) {
+    return fmt::format("brightness {:.3f}, outside [{}, {}]", brightness, colour.brightness_min, colour.brightness_max);
+  }
+  if (!within(chroma, colour.chroma_min, colour.chroma_max)) {
+    return fmt::format("chroma {:.3f}, outside [{}, {}]", chroma, colour.chroma_min, colour.chroma_max);
+  }
+  if (chroma == 0.0) return {};  // no hue
+  constexpr double kRounding = 1e-9;
+  const double hue = std::atan2(std::sqrt(3.0) / 2.0 * (rgb[1] - rgb[2]), rgb[0] - 0.5 * (rgb[1] + rgb[2]));
+  if (std::fmod(hue - colour.hue_from + kRounding + 4.0 * kPi, 2.0 * kPi) <= colour.hue_width + 2.0 * kRounding) {
+    return {};
+  }
+  return fmt::format("hue {:.1f}°, outside [{:g}, {:g}]", degrees(std::fmod(hue + 2.0 * kPi, 2.0 * kPi)),
+                     degrees(colour.hue_from), degrees(std::fmod(colour.hue_from + colour.hue_width, 2.0 * kPi)));
+}
+
+std::optional<Eigen::Vector3d> read_typical(const YamlMap& map, const ColourClass& colour) {
   if (!map.has("typical")) return std::nullopt;
-  const std::vector<double> rgb = map.numbers("typical", 3, {1.0, 255.0});
-  return Eigen::Vector3d(rgb[0], rgb[1], rgb[2]);
+  const std::vector<double> bytes = map.numbers("typical", 3, {1.0, 255.0});
+  const Eigen::Vector3d rgb(bytes[0], bytes[1], bytes[2]);
+  if (const std::string what = outside(colour, rgb); !what.empty()) {
+    map.fail("typical", fmt::format("is no colour of its own class: it has {}; give [red, green, blue] as most of its "
+                                    "pixels show it, or correct the class's bounds",
+                                    what));
+  }
+  return rgb;
 }
 
 }  // namespace
@@ -56,10 +85,12 @@ Colours read_colours(const std::filesystem::path& file) {
   Colours colours;
   for (int i = 0; i < kObjectClasses; ++i) {
     const auto object = static_cast<ObjectClass>(i);
-    if (map.has(name(object))) colours.classes.push_back(read_class(map.map(name(object)), object));
+    if (!map.has(name(object))) continue;
+    const YamlMap bounds = map.map(name(object));
+    const ColourClass& colour = colours.classes.emplace_back(read_class(bounds, object));
+    if (object == ObjectClass::field) colours.typical.field = read_typical(bounds, colour);
+    if (object == ObjectClass::line) colours.typical.line = read_typical(bounds, colour);
   }
-  if (map.has("field")) colours.typical.field = read_typical(map.map("field"));
-  if (map.has("line")) colours.typical.line = read_typical(map.map("line"));
   const bool detects = std::any_of(colours.classes.begin(), colours.classes.end(), [](const ColourClass& colour) {
     return colour.object == ObjectClass::ball || colour.object == ObjectClass::yellow_goal ||
            colour.object == ObjectClass::blue_goal;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "movis/core/angle.h"
 #include "movis/core/error.h"
@@ -27,6 +28,7 @@ struct Body {
   double radius_information = 0.0;
   unsigned cameras = 0;  // bits
 };
+constexpr int kCameraBits = std::numeric_limits<unsigned>::digits;
 
 Body body_of(const omni::Camera& camera, const ObstacleSight& sight, const ObstacleOptions& options) {
   constexpr double kLeastGap = 0.05;  // 1 − sin α of a body that the camera nearly touches
@@ -91,6 +93,11 @@ bool covers(const ObstacleSight& sight, double azimuth) {
   return turn(sight.right - kBorder, azimuth) >= 0.0 && turn(azimuth, sight.left + kBorder) >= 0.0;
 }
 
+void hide(double hidden, double& variance, std::uint8_t& flags) {
+  variance = std::max(variance, hidden);
+  flags |= kCutByObject;
+}
+
 }  // namespace
 
 ObstacleOptions read_obstacle_options(const YamlMap& map) {
@@ -105,6 +112,10 @@ ObstacleOptions read_obstacle_options(const YamlMap& map) {
 
 void merge_obstacles(const omni::Rig& rig, const std::vector<ObstacleSight>& sights, const ObstacleOptions& options,
                      std::vector<Obstacle>& obstacles) {
+  if (rig.cameras.size() > kCameraBits) {
+    throw Error("obstacles are merged from up to {} cameras, this rig has {}; leave some of them out", kCameraBits,
+                rig.cameras.size());
+  }
   std::array<Body, kMostObstacles> bodies;
   int count = 0;
   for (const ObstacleSight& sight : sights) {
@@ -133,10 +144,10 @@ void hide_covered_edges(const std::vector<ObstacleSight>& sights, std::vector<Be
       if (sight.camera != bearing.camera) continue;
       const bool left = covers(sight, bearing.left);
       const bool right = covers(sight, bearing.right);
-      if (left) bearing.left_variance = std::max(bearing.left_variance, hidden);
-      if (right) bearing.right_variance = std::max(bearing.right_variance, hidden);
-      if (left || right) bearing.flags |= kCutByObject;
+      if (left) hide(hidden, bearing.left_variance, bearing.left_flags);
+      if (right) hide(hidden, bearing.right_variance, bearing.right_flags);
     }
+    bearing.flags |= bearing.left_flags | bearing.right_flags;
   }
 }
 

@@ -23,7 +23,8 @@ namespace movis::localization {
 //
 // Covariance of (x, y, β) in m and rad: that of an M-estimator with independent normal errors of f σ_i,
 //   C = (E[ψ²]/E[ψ']²) f² (Σ J_iᵀ J_i/σ_i²)⁻¹   over the points with |d_i| < 3 f σ_i,   ψ(u) = u (9/(9 + u²))²
-// Neighbouring pixels, which share the errors of their camera's calibration, count in it as independent ones.
+// times max(1, n/`independent`) for n points: neighbouring pixels share the errors of their camera's calibration, so
+// more points do not tell ever more. Where the errors are independent, set `independent` to n.
 //
 // No line tells the half turn about the centre spot, which maps the lines of every field onto themselves: `symmetric` is
 // always true, and a pose found without a guess is given in the half with y ≤ 0.
@@ -31,14 +32,23 @@ namespace movis::localization {
 // Fails with
 //   no_field     the map has no lines
 //   no_landmark  too few points, or all on one line or one circle: a direction of the pose is left free
-//   bad_fit      a larger share of the points than `outliers` lies on no line: another field, or another camera's
-//                calibration. On a line is what lies within t = half a line and 2 σ from its middle; p(t) of what lies
-//                anywhere does so by chance, p being that part of the field. With a share a of points that do and their
-//                mean p̄, the share of points that lie on a line because they are seen there is (a − p̄)/(1 − p̄)
+//   bad_fit      another field, or another camera's calibration:
+//                - a larger share of the points than `outliers` lies on no line. On a line is what lies within t = half
+//                  a line and 2 σ from its middle; p(t) of what lies anywhere does so by chance, p being that part of
+//                  the field. With a share a of points that do and their mean p̄, the share of points that lie on a
+//                  line because they are seen there is (a − p̄)/(1 − p̄)
+//                - 1.4826 times the median of |d|/√(σ² + w²/12), w the line's width, exceeds `worst_spread`: the
+//                  distances are more than the points' sigmas and the line itself explain. It is 1 for normal errors of
+//                  that size. The line is counted here even where σ leaves it out, as that of a line's middle found to
+//                  millimetres does: a pose good to a line's width may spread such points by many of their sigmas
+//                - a larger share of the points than `most_left_out` is left out
 //   ambiguous    (without a guess) another pose, other than by the half turn, explains the points nearly as well
 struct LineMatchOptions {
   double outliers = 0.3;        // the largest share of points that may lie on no line
   double largest_sigma = 0.25;  // metres; a point that is less certain tells no line from the next one
+  double worst_spread = 1.5;    // at √2 half of the variance is unexplained
+  double most_left_out = 0.5;   // the largest share of points that may be left out
+  double independent = 100.0;   // points count in the covariance for no more than so many
   double distinct = 0.1;        // the share of points that the best pose must explain and no other one does
   int fewest_points = 12;
 };
@@ -51,6 +61,7 @@ struct LineFit {
   double within_15cm = 0.0;  // share of the points
   double within_5cm = 0.0;
   double on_lines = 0.0;   // the share (a − p̄)/(1 − p̄)
+  double spread = 0.0;     // 1.4826 times the median of |d|/√(σ² + w²/12)
   double support = 0.0;    // the mean of t²/(t² + d²) over the points that the search takes
   double runner_up = 0.0;  // `support` of the best other pose; 0 where none was sought or found
   Pose2 other;             // that pose
@@ -64,7 +75,7 @@ struct LineMatchScratch {
   };
   std::vector<Point> points;   // all that are used
   std::vector<Point> thinned;  // as the search takes them: one in every square of a line's width, at most 200
-  std::vector<double> sizes;
+  std::vector<double> sizes, spreads;
   std::vector<std::uint64_t> taken;   // squares, a bit each
   std::vector<std::uint16_t> scores;  // of the positions of one heading
 };

@@ -27,23 +27,26 @@ namespace movis::localization {
 // them refined; where the edges do not suffice, by lines (line_match.h).
 //
 // Covariance of (x, y, β): the inverse of the weighted normal equations, the biases eliminated.
+// What speaks against a pose: half of the clean edges of either goal lying elsewhere; six in ten line points lying on no
+// line (less those that would by chance). Where no lines are seen though the field has some, both goals must be seen and
+// three quarters of the clean edges agree, to three times their sigmas.
 // Fails with
 //   no_goal, one_goal, no_landmark  not enough was seen: of coloured goals none, one or both, or of lines
 //   ambiguous     another pose fits nearly as well. The pose given is one of them; where it is the half turn that is
 //                 open, `symmetric` is set: lines alone, on a field with coloured goals
-//   bad_fit       too few of the clean edges agree with the pose, or their scale exceeds `worst_scale`
-//   outside_field as method1
+//   bad_fit       edges or lines speak against the best pose, or the edges' scale exceeds `worst_scale`
+//   outside_field farther than half a metre beyond the lines or the goals' backs
 // With white goals (field.yaml) only lines are used: ok with `symmetric` set, right up to the half turn.
 // Allocates nothing, after the first call in a thread.
 struct NlsOptions {
   double edge_floor_deg = 0.014;  // sigma added to each edge's own: the silhouette's model, the lens's
   double edge_bias_deg = 0.015;
-  double line_floor = 0.003;   // sigma added to each line point's own, metres
-  double line_points = 100.0;  // that all line points count for at most
-  double loss_width = 4.0;     // c
-  double worst_scale = 60.0;   // of the residuals over their sigma
-  double worst_sigma = 0.10;   // of the position, metres: above it, the pose counts as not determined
-  LineMatchOptions lines;      // for the start by lines
+  double line_floor = 0.003;  // sigma added to each line point's own, metres
+  double line_points = 25.0;  // that all line points count for at most
+  double loss_width = 4.0;    // c
+  double worst_scale = 60.0;  // of the residuals over their sigma
+  double worst_sigma = 0.10;  // of the position, metres: above it, the pose counts as not determined
+  LineMatchOptions lines;     // for the start by lines
 };
 
 NlsOptions read_nls_options(const YamlMap& map);

@@ -18,6 +18,7 @@ namespace movis::calibration {
 struct CurveOptions {
   double sigma_a = 0.2, sigma_b = 0.2;  // relative
   double sigma_centre_px = 10.0;
+  double most_sigmas = 3.0;  // by more of its σ no parameter may change
 };
 
 struct CurveCalibration {
@@ -28,8 +29,10 @@ struct CurveCalibration {
   localization::LineFit after;
 };
 
-// Throws an Error where the camera's model is not radial, and where even the best curve explains the pixels with no
-// status ok: too few pixels, another field, or a start too far off.
+// Throws an Error where the camera's model is not radial, and where the best curve is not to be believed (too few pixels,
+// another field, or a start too far off): its status is not ok, a parameter changes by more than `most_sigmas` of its σ,
+// or the median distance exceeds √((w/2)² + (p/1.4826)²), w being the line's width and p the median of what a pixel is
+// on the floor: more than what fills lines, seen to a pixel, leaves.
 CurveCalibration calibrate_curve(const std::vector<Eigen::Vector2d>& pixels, const omni::Camera& start,
                                  const localization::FieldMap& map, const CurveOptions& options = {});
 

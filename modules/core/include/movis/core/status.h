@@ -46,7 +46,7 @@ struct PointEstimate {
   bool on_floor = false;  // that it lies on the floor is part of the measurement; else its height was measured
 };
 
-// The robot's pose, of one instant. With a status other than ok, pose and covariance mean nothing.
+// The robot's pose, of one instant. Pose and covariance mean nothing but with ok, and ambiguous where symmetric.
 struct Fix {
   FixStatus status = FixStatus::no_field;
   Pose2 world_from_robot;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "movis/control/controller.h"
+#include "movis/localization/localizer.h"
 #include "movis/pipeline/player.h"
 #include "movis/report/episode_page.h"
 #include "movis/sim/scenario.h"
@@ -13,7 +14,7 @@
 namespace movis::experiments {
 
 struct MatchOptions {
-  std::string localizer = "composed";
+  std::string localizer{localization::kDefaultLocalizer};
   std::string triangulation = "pairs";  // joint gives up goals beside the robot more often, and then no pose comes
   pipeline::Options pipeline;
   std::function<void()> every_tick;  // called in every tick, if given; may throw to end the episode

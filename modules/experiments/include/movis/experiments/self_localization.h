@@ -100,6 +100,10 @@ ReplayedRow replay_self_localization(const SelfLocalizationSettings& settings, s
 inline constexpr double kFarOff = 0.20;  // metres: an ok fix farther off than this is a wrong one
 inline constexpr int kAllSpots = -1;
 
+// Of fewer draws there is neither an interval nor a verdict: by chance all five lie on the same side in 2/2⁵ = 6 % of
+// the cases, and no bootstrap tells more than the draws.
+inline constexpr int kFewestDraws = 6;
+
 // One localizer with one knowledge of the rig, over all draws and headings of a spot, or of all spots.
 struct SelfLocalizationCell {
   Field::Goals goals = Field::Goals::coloured;
@@ -130,7 +134,7 @@ struct Observation {
   struct Ours {
     Knowledge knowledge = Knowledge::nominal;
     std::string figures;
-    std::string verdict;  // agrees, does not agree, or not decided: the interval holds both
+    std::string verdict;  // agrees, does not agree, not decided (the interval holds both, or why not), not tested: why
   };
   std::vector<Ours> ours;
 };

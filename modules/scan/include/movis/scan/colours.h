@@ -33,7 +33,7 @@ struct Colours {
   TypicalColours typical = {};
 };
 
-// Reads colours.yaml strictly. Any subset of the classes may stand in it.
+// Reads colours.yaml strictly. Any subset of the classes may stand in it. A typical colour is of its own class.
 Colours read_colours(const std::filesystem::path& file);
 
 }  // namespace movis::scan

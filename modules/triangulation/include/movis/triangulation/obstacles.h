@@ -31,15 +31,16 @@ struct ObstacleOptions {
 
 ObstacleOptions read_obstacle_options(const YamlMap& map);
 
-// `obstacles` is cleared first; at most kMostObstacles. Sights of a camera that the rig has not throw an Error.
+// `obstacles` is cleared first; at most kMostObstacles. Sights of a camera that the rig has not, and a rig of more than
+// 32 cameras, throw an Error.
 inline constexpr int kMostObstacles = 32;
 void merge_obstacles(const omni::Rig& rig, const std::vector<ObstacleSight>& sights, const ObstacleOptions& options,
                      std::vector<Obstacle>& obstacles);
 
 // The edges of goals that lie within or at the border of an obstacle's azimuths, as one camera sees both, are hidden
 // somewhere behind it, since the obstacle's foot would not be seen through the goal. The edge's standard deviation
-// becomes half of the goal's seen width, and the bearing is flagged kCutByObject. Sights and bearings are to be of the
-// same instant, both corrected or both not.
+// becomes half of the goal's seen width, and edge and bearing are flagged kCutByObject. Sights and bearings are to be of
+// the same instant, both corrected or both not.
 void hide_covered_edges(const std::vector<ObstacleSight>& sights, std::vector<Bearing>& bearings);
 
 }  // namespace movis::triangulation
