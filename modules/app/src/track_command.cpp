@@ -43,6 +43,21 @@ pipeline::Pipeline make_pipeline(const TrackArguments& arguments, const grab::Da
   return pipeline;
 }
 
+// The command that makes the page again.
+std::string command_of(const TrackArguments& arguments) {
+  std::string command = fmt::format("movis track --data {} --triangulation {} --localizer {}", arguments.data.string(),
+                                    arguments.triangulation, arguments.localizer);
+  const auto add = [&](const char* option, const std::optional<fs::path>& file) {
+    if (file) command += fmt::format(" {} {}", option, file->string());
+  };
+  add("--rig", arguments.rig);
+  add("--field", arguments.field);
+  add("--colours", arguments.colours);
+  add("--correction", arguments.correction);
+  add("--options", arguments.options);
+  return command;
+}
+
 // How often each status came, most frequent words first to read: "ok 26, one_goal 1".
 std::string count_statuses(const std::map<std::string, int>& counts) {
   std::string text;
@@ -137,8 +152,7 @@ void track(const TrackArguments& arguments) {
   estimates.flush();
   if (obstacles) obstacles->flush();
   if (frames) {
-    const std::string command = fmt::format("movis track --data {} --triangulation {} --localizer {}",
-                                            arguments.data.string(), arguments.triangulation, arguments.localizer);
+    const std::string command = command_of(arguments);
     report::write_track_page({"MOVIS: what the cameras saw and what was measured", frames->take(),
                               std::string("movis ") + version(), command},
                              *arguments.page);
