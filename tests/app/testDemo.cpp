@@ -64,12 +64,12 @@ TEST(Demo, SameSeedSameRowsOnAnyNumberOfCores) {
 
 TEST(Demo, SignalEndsItInTheMiddleOfAnEpisode) {
   const test::TemporaryFolder folder;
-  const auto scenario =
-      short_scenario(folder, "duration_s: 3600\nstart: {robot: [0, -1.9, 180]}\n");  // in the goal: no pose
+  const auto scenario = short_scenario(
+      folder, "duration_s: 3600\nstart: {robot: [0, -1.9, 180]}\n");  // in the goal: composed has no pose
   const auto page = folder.path() / "demo.html";
-  const test::ProgramRun run =
-      test::run_program("timeout --signal=INT --kill-after=20 8 " + kProgram + " demo --episodes 1 --scenario " +
-                        scenario.string() + " --out " + page.string());
+  const test::ProgramRun run = test::run_program("timeout --signal=INT --kill-after=20 8 " + kProgram +
+                                                 " demo --episodes 1 --localizer composed --scenario " +
+                                                 scenario.string() + " --out " + page.string());
   EXPECT_NE(run.output.find("interrupted"), std::string::npos) << run.output;
   EXPECT_FALSE(std::filesystem::exists(page));
 }
