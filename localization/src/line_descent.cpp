@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "movis/core/median.h"
+
 namespace movis::localization {
 namespace {
 
@@ -94,19 +96,13 @@ Pose2 descend(const std::vector<LineSample>& points, const LineMap& map, const P
   return pose;
 }
 
-double upper_median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double excess_spread(const std::vector<LineSample>& points, const LineMap& map, const Pose2& pose,
                      std::vector<double>& sizes) {
   const Turned turned(pose.beta);
   sizes.clear();
   for (const LineSample& point : points)
     sizes.push_back(std::abs(map.offset(pose.translation() + turned(point)).distance) / point.sigma);
-  return std::max(1.0, kNormalMedian * upper_median(sizes));
+  return std::max(1.0, kNormalMedian * median_in_place(sizes));
 }
 
 Pose2 settle(const std::vector<LineSample>& points, const LineMap& map, const Pose2& start,

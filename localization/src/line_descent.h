@@ -13,11 +13,6 @@ using LineSample = LineMatchScratch::Point;
 // The minimum of E near `start` for a given s (metres) and f.
 Pose2 descend(const std::vector<LineSample>& points, const LineMap& map, const Pose2& start, double s, double f);
 
-constexpr double kNormalMedian = 1.4826;  // σ over the median of |normal|
-
-// Of an even number of values the greater one in the middle; reorders them, of which there must be some.
-double upper_median(std::vector<double>& values);
-
 // f at a pose, at least 1. `sizes` is scratch.
 double excess_spread(const std::vector<LineSample>& points, const LineMap& map, const Pose2& pose,
                      std::vector<double>& sizes);

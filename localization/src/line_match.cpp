@@ -5,6 +5,7 @@
 
 #include "line_descent.h"
 #include "line_search.h"
+#include "movis/core/median.h"
 
 namespace movis::localization {
 namespace {
@@ -81,8 +82,8 @@ void measure_quality(const FieldMap& map, const Pose2& pose, LineMatchScratch& s
     by_chance += map.lines.share_within(limit);
   }
   const auto count = static_cast<double>(scratch.points.size());
-  fit.median = upper_median(scratch.sizes);
-  fit.spread = kNormalMedian * upper_median(scratch.spreads);
+  fit.median = median_in_place(scratch.sizes);
+  fit.spread = kNormalMedian * median_in_place(scratch.spreads);
   fit.points = static_cast<int>(scratch.points.size());
   fit.within_15cm = within_15cm / count;
   fit.within_5cm = within_5cm / count;

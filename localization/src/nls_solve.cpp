@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "movis/core/median.h"
 #include "nls_residuals.h"
 
 namespace movis::localization {
@@ -100,7 +101,6 @@ double step(State& state, const Normal& normal) {
   return change.head<2>().norm() + std::abs(change[2]);
 }
 
-constexpr double kMedianOfNormal = 1.4826;
 constexpr int kUnknowns = 3;
 constexpr double kChance = 1.5;  // a dozen edges spread as much more by chance
 
@@ -110,7 +110,7 @@ double scale_of(double* sizes, int count) {
   if (count <= kUnknowns) return 1.0;
   std::nth_element(sizes, sizes + count / 2, sizes + count);
   const double freedom = static_cast<double>(count) / (count - kUnknowns);
-  const double scale = kMedianOfNormal * sizes[count / 2] * std::sqrt(freedom);
+  const double scale = kNormalMedian * sizes[count / 2] * std::sqrt(freedom);
   return scale > kChance ? scale : 1.0;
 }
 

@@ -61,11 +61,6 @@ BallError ball_error(const Eigen::Vector2d& ball_in_robot, const grab::Truth& tr
           (ball_in_robot - expected).norm()};
 }
 
-Fix nearer_half(const Fix& fix, const Pose2& truth) {
-  const bool other = fix.symmetric && std::abs(turn(truth.beta, fix.world_from_robot.beta)) > 0.5 * kPi;
-  return other ? half_turned(fix) : fix;
-}
-
 PoseError pose_error(const Fix& measured, const grab::Truth& truth) {
   const Fix fix = nearer_half(measured, truth.world_from_robot);
   const Eigen::Vector3d error(fix.world_from_robot.x - truth.world_from_robot.x,

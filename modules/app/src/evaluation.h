@@ -26,9 +26,6 @@ struct PoseError {
 
 Eigen::Vector2d true_ball_in_robot(const grab::Truth& truth);
 BallError ball_error(const Eigen::Vector2d& ball_in_robot, const grab::Truth& truth);
-
-// Of the two poses of a symmetric fix the one that is at most a quarter of a turn off.
-Fix nearer_half(const Fix& fix, const Pose2& truth);
 PoseError pose_error(const Fix& measured, const grab::Truth& truth);
 
 // Collects errors and says what came of them, in tables for standard output.

@@ -100,8 +100,7 @@ std::string light_lines(const LightCounts& counts) {
   if (2 * of(scan::LightStatus::unknown) > images) {
     text +=
         "  unknown light: these images were taken as they are; too little in them is the typical carpet, in any light "
-        "that "
-        "is\n  believed. Give colour classes for them, with the carpet as field and typical, by --colours\n";
+        "that is\n  believed. Give colour classes for them, with the carpet as field and typical, by --colours\n";
   }
   return text;
 }

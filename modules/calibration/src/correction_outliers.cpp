@@ -160,13 +160,12 @@ struct Scatter {
 };
 
 Scatter scatter_of(const std::vector<Misfit>& misfits) {
-  constexpr double kNormal = 1.4826;  // sigma over median of the magnitude
   std::vector<double> azimuths, elevations;
   for (const Misfit& misfit : misfits) {
     azimuths.push_back(std::abs(misfit.azimuth) / misfit.azimuth_sigma);
     elevations.push_back(std::abs(misfit.elevation) / misfit.elevation_sigma);
   }
-  return {std::max(1.0, kNormal * median(azimuths)), std::max(1.0, kNormal * median(elevations))};
+  return {std::max(1.0, kNormalMedian * median(azimuths)), std::max(1.0, kNormalMedian * median(elevations))};
 }
 
 // Which points contradict the others.

@@ -17,7 +17,6 @@ using localization::LineFit;
 constexpr double kWidths[] = {0.5, 0.25, 0.0, 0.0};  // s of the rounds, metres
 constexpr double kNoiseScale = 3.0;                  // c in units of f σ
 constexpr double kLargestSpread = 3.0;               // f: a larger one would let any line attract any pixel
-constexpr double kNormalMedian = 1.4826;             // σ over the median of |normal|
 constexpr double kUnseen = 1e3;                      // distance of a pixel that the curve shows no floor, metres
 
 struct Pixel {

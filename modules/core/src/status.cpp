@@ -1,5 +1,7 @@
 #include "movis/core/status.h"
 
+#include <cmath>
+
 #include "movis/core/bearing.h"
 #include "movis/core/image_view.h"
 
@@ -99,6 +101,11 @@ Fix half_turned(const Fix& fix) {
   turned.covariance.topRightCorner<2, 1>() *= -1.0;
   turned.covariance.bottomLeftCorner<1, 2>() *= -1.0;
   return turned;
+}
+
+Fix nearer_half(const Fix& fix, const Pose2& truth) {
+  const bool other = fix.symmetric && std::abs(turn(truth.beta, fix.world_from_robot.beta)) > 0.5 * kPi;
+  return other ? half_turned(fix) : fix;
 }
 
 }  // namespace movis

@@ -2,32 +2,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "movis/core/angle.h"
 #include "movis/core/output_file.h"
 #include "movis/core/version.h"
 #include "movis/experiments/measurement_summary.h"
 #include "movis/report/measurement_page.h"
+#include "summary_numbers.h"
 
 namespace movis::experiments {
 namespace {
-
-using Json = nlohmann::json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-Json statistics_json(const ErrorStatistics& s, double unit) {
-  return {{"mean", number(unit * s.mean)},
-          {"mean_low", number(unit * s.mean_interval.low)},
-          {"mean_high", number(unit * s.mean_interval.high)},
-          {"median", number(unit * s.median)},
-          {"rms", number(unit * s.rms)},
-          {"percentile95", number(unit * s.percentile95)},
-          {"largest", number(unit * s.largest)}};
-}
 
 Json cell_json(const MeasurementCell& cell) {
   return {{"level", word(cell.level)},
@@ -94,9 +78,6 @@ std::string table_of(const MeasurementSummary& summary) {
   std::string table =
       fmt::format("  {:<10}{:<31}{:<12}{:>12}{:>10}{:>18}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "level", "system", "rig",
                   "measured", "mean cm", "95 % interval", "common", "median", "95 %", "bound", "dir. °");
-  const auto text = [](double value, int digits) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("–");
-  };
   for (const MeasurementCell& cell : summary.cells) {
     if (cell.differences != Differences::all) continue;
     const auto& d = cell.distance;

@@ -28,9 +28,7 @@ void judge(const Fix& fix, const Pose2& truth, SelfLocalizationRow& row) {
   row.status = movis::word(fix.status);
   if (fix.status != FixStatus::ok) return;
   row.symmetric = fix.symmetric;
-  // Of the two poses that are half a turn apart one is at most a quarter off.
-  const bool other = fix.symmetric && std::abs(turn(truth.beta, fix.world_from_robot.beta)) > 0.5 * kPi;
-  const Fix nearer = other ? half_turned(fix) : fix;
+  const Fix nearer = nearer_half(fix, truth);
   const Pose2& pose = nearer.world_from_robot;
   row.error << pose.translation() - truth.translation(), turn(truth.beta, pose.beta);
   row.sigma = nearer.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();

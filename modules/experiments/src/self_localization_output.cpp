@@ -2,32 +2,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "movis/core/angle.h"
 #include "movis/core/output_file.h"
 #include "movis/core/version.h"
 #include "movis/experiments/self_localization.h"
 #include "movis/report/self_localization_page.h"
+#include "summary_numbers.h"
 
 namespace movis::experiments {
 namespace {
-
-using Json = nlohmann::json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-Json statistics_json(const ErrorStatistics& s, double unit) {
-  return {{"mean", number(unit * s.mean)},
-          {"mean_low", number(unit * s.mean_interval.low)},
-          {"mean_high", number(unit * s.mean_interval.high)},
-          {"median", number(unit * s.median)},
-          {"rms", number(unit * s.rms)},
-          {"percentile95", number(unit * s.percentile95)},
-          {"largest", number(unit * s.largest)}};
-}
 
 std::string spot_name(const SelfLocalizationSummary& summary, int spot) {
   return spot == kAllSpots ? "all" : summary.settings.spots.at(static_cast<std::size_t>(spot)).name;
@@ -86,9 +70,6 @@ std::string table_of(const SelfLocalizationSummary& summary) {
   std::string table = fmt::format("  {:<10}{:<11}{:<11}{:>9}{:>9}{:>15}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n", "goals",
                                   "rig", "localizer", "poses", "mean cm", "95 % interval", "95 %", "max", "X cm",
                                   "Y cm", "heading°", "far off", "NEES");
-  const auto text = [](double value, int digits) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("–");
-  };
   for (const SelfLocalizationCell& cell : summary.cells) {
     if (cell.spot != kAllSpots) continue;
     const ErrorStatistics& p = cell.position;

@@ -60,4 +60,7 @@ struct Fix {
 // The other pose of a symmetric fix. The signs of x and y change together, so the covariance's entries with β do.
 Fix half_turned(const Fix& fix);
 
+// Of a symmetric fix the pose that is at most a quarter of a turn off the truth; any other fix as it is.
+Fix nearer_half(const Fix& fix, const Pose2& truth);
+
 }  // namespace movis
